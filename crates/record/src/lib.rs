@@ -1,1 +1,26 @@
-//! record
+//! What is written down: the typed rows of every table, the tables as CSV files, and the store of case records.
+//!
+//! **Invariant**: knows no model, no solver and no plot.
+//! A row here is text, numbers and units; what they mean is the business of those who write and read them.
+//!
+//! Read first: [`CaseRow`] (one cell of model × input × solver × control), [`Summary`] (all tables of one
+//! experiment, what the report is rendered from), [`Store`] (finished cases on disk, under their content's key).
+
+mod error;
+mod file;
+mod rows;
+mod store;
+mod summary;
+mod table;
+
+pub use error::RecordError;
+pub use file::write_whole;
+pub use rows::{
+    AboutRow, CaseRow, ClaimRow, CurveRow, FigureRow, MeasureRow, OrderRow, PanelRow, StudyRow,
+};
+pub use store::{CaseRecord, Found, History, Key, Store};
+pub use summary::Summary;
+pub use table::{Cell, Table};
+
+/// The version of every file this crate writes; part of each record's key.
+pub const FORMAT: u32 = 1;
