@@ -1,0 +1,137 @@
+//! The two things a solver is given: the segment, which it asks, and the recorder, which it tells.
+
+use crate::{Dynamics, Failure, Trajectory};
+use std::cell::Cell;
+use std::panic::resume_unwind;
+
+/// Unwinds out of a solver whose budget is spent; caught by `solve`. Unwinding with
+/// `resume_unwind` does not call the panic hook.
+pub(crate) struct BudgetSpent;
+
+/// Counts what is asked of the right-hand side, over all segments of a run.
+#[derive(Debug)]
+pub(crate) struct Counter {
+    pub(crate) evaluations: Cell<u64>,
+    pub(crate) jacobians: Cell<u64>,
+    /// Whether the last right-hand side was finite.
+    pub(crate) finite: Cell<bool>,
+    limit: u64,
+}
+
+impl Counter {
+    pub(crate) fn new(limit: u64) -> Self {
+        Counter {
+            evaluations: Cell::new(0),
+            jacobians: Cell::new(0),
+            finite: Cell::new(true),
+            limit,
+        }
+    }
+
+    fn spend(&self, on: &Cell<u64>) {
+        if self.evaluations.get() + self.jacobians.get() >= self.limit {
+            resume_unwind(Box::new(BudgetSpent));
+        }
+        on.set(on.get() + 1);
+    }
+}
+
+/// A stretch of the problem that is integrated in one go, from a fresh start.
+#[derive(Clone)]
+pub struct Segment<'a> {
+    pub(crate) dynamics: &'a dyn Dynamics,
+    pub(crate) counter: &'a Counter,
+    /// The piece of the right-hand side it lies on; none if corners are ignored.
+    pub piece: Option<usize>,
+    /// First time.
+    pub start: f64,
+    /// Last time.
+    pub end: f64,
+    /// State at the start.
+    pub y0: Vec<f64>,
+    /// Natural size of each state.
+    pub scale: &'a [f64],
+}
+
+impl std::fmt::Debug for Segment<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Segment")
+            .field("piece", &self.piece)
+            .field("start", &self.start)
+            .field("end", &self.end)
+            .field("y0", &self.y0)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Segment<'_> {
+    /// Number of states.
+    pub fn dimension(&self) -> usize {
+        self.y0.len()
+    }
+
+    /// f(t, y) on this segment's piece, counted. Does not return when the budget is spent.
+    pub fn derivative(&self, t: f64, y: &[f64], dy: &mut [f64]) {
+        self.counter.spend(&self.counter.evaluations);
+        self.dynamics.derivative(t, y, self.piece, dy);
+        self.counter.finite.set(dy.iter().all(|d| d.is_finite()));
+    }
+
+    /// ∂f/∂y on this segment's piece, row by row, counted. Does not return when the budget is
+    /// spent.
+    pub fn jacobian(&self, t: f64, y: &[f64], jacobian: &mut [f64]) {
+        self.counter.spend(&self.counter.jacobians);
+        self.dynamics.jacobian(t, y, self.piece, jacobian);
+    }
+
+    /// Evaluations of the right-hand side so far, over all segments of the run.
+    pub fn evaluations(&self) -> u64 {
+        self.counter.evaluations.get()
+    }
+
+    /// Whether the last right-hand side was finite.
+    pub fn last_derivative_was_finite(&self) -> bool {
+        self.counter.finite.get()
+    }
+}
+
+/// Takes down every accepted step of a run.
+#[derive(Debug)]
+pub struct Recorder {
+    pub(crate) trajectory: Trajectory,
+    pub(crate) accepted: u64,
+    pub(crate) rejected: Option<u64>,
+    largest: Vec<f64>,
+}
+
+impl Recorder {
+    pub(crate) fn new(t: f64, y: &[f64], scale: &[f64]) -> Self {
+        Recorder {
+            trajectory: Trajectory { t: vec![t], y: y.to_vec(), n: y.len() },
+            accepted: 0,
+            rejected: None,
+            largest: scale.iter().map(|s| 1e6 * s).collect(),
+        }
+    }
+
+    /// Takes down an accepted step, unless it is no good; the solver then has to stop and to hand
+    /// on the failure.
+    pub fn accept(&mut self, t: f64, y: &[f64]) -> Result<(), Failure> {
+        if !t.is_finite() || !y.iter().all(|y| y.is_finite()) {
+            return Err(Failure::NotFinite);
+        }
+        if y.iter().zip(&self.largest).any(|(y, largest)| y.abs() > *largest) {
+            return Err(Failure::Diverged);
+        }
+        self.trajectory.t.push(t);
+        self.trajectory.y.extend_from_slice(y);
+        self.accepted += 1;
+        Ok(())
+    }
+
+    /// Takes down how many attempted steps were thrown away since this was last called. An
+    /// adaptive method calls it even with 0.
+    pub fn reject(&mut self, attempts: u64) {
+        self.rejected = Some(self.rejected.unwrap_or(0) + attempts);
+    }
+}

@@ -1,0 +1,5 @@
+//! What the solvers do, over their list.
+
+mod common;
+mod order;
+mod versions;
