@@ -6,12 +6,13 @@
 //! end is a result and never an error of the program; what it computed before is kept.
 //!
 //! **Invariant.** This crate knows no friction, no files and no plots, has no clock, and no type of
-//! a solver library leaves its file.
+//! a solver library leaves its file in `libraries/`.
 //!
 //! Read first: [`Dynamics`], the right-hand side and what a *piece* of it is; [`Solver`], one entry
 //! of the list; [`Run`], what comes back.
 
 mod faulty;
+mod libraries;
 mod newton;
 mod problem;
 mod run;

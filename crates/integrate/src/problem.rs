@@ -34,7 +34,8 @@ pub struct InitialValueProblem<'a> {
     pub end: f64,
     /// Initial state.
     pub y0: Vec<f64>,
-    /// Corners in time, strictly inside the span and rising: breakpoint k ends piece k.
+    /// Corners in time, strictly inside the span and rising: breakpoint k ends piece k. Two that
+    /// are closer than some 1e-12 of the time are too close for the libraries to step between.
     pub breakpoints: Vec<f64>,
 }
 

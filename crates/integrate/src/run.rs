@@ -13,7 +13,8 @@ pub struct Work {
     /// Accepted steps.
     pub accepted: u64,
     /// Attempted steps that were thrown away, for error or because Newton's method failed; none
-    /// for a method with fixed steps, which knows no attempt.
+    /// for a method with fixed steps, which knows no attempt. In a failed run of ode_solvers, those
+    /// after the last accepted step are not in it.
     pub rejected: Option<u64>,
 }
 

@@ -4,17 +4,25 @@ use crate::{Dynamics, Failure, Trajectory};
 use std::cell::Cell;
 use std::panic::resume_unwind;
 
-/// Unwinds out of a solver whose budget is spent; caught by `solve`. Unwinding with
-/// `resume_unwind` does not call the panic hook.
-pub(crate) struct BudgetSpent;
+/// Why the wrapper unwinds out of a solver; caught by `solve`. Unwinding with `resume_unwind` does
+/// not call the panic hook.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum GiveUp {
+    BudgetSpent,
+    NeverFinite,
+}
+
+/// Right-hand sides in a row that are not finite before a solver is given up. Halving a step at each
+/// attempt gets below what a clock resolves long before; some solvers go on for ever.
+const HOPELESS: u32 = 1000;
 
 /// Counts what is asked of the right-hand side, over all segments of a run.
 #[derive(Debug)]
 pub(crate) struct Counter {
     pub(crate) evaluations: Cell<u64>,
     pub(crate) jacobians: Cell<u64>,
-    /// Whether the last right-hand side was finite.
-    pub(crate) finite: Cell<bool>,
+    /// Right-hand sides up to the last that were not finite, in a row.
+    not_finite: Cell<u32>,
     limit: u64,
 }
 
@@ -23,16 +31,24 @@ impl Counter {
         Counter {
             evaluations: Cell::new(0),
             jacobians: Cell::new(0),
-            finite: Cell::new(true),
+            not_finite: Cell::new(0),
             limit,
         }
     }
 
     fn spend(&self, on: &Cell<u64>) {
         if self.evaluations.get() + self.jacobians.get() >= self.limit {
-            resume_unwind(Box::new(BudgetSpent));
+            resume_unwind(Box::new(GiveUp::BudgetSpent));
         }
         on.set(on.get() + 1);
+    }
+
+    fn look(&self, dy: &[f64]) {
+        if dy.iter().all(|dy| dy.is_finite()) {
+            self.not_finite.set(0);
+        } else if self.not_finite.replace(self.not_finite.get() + 1) >= HOPELESS {
+            resume_unwind(Box::new(GiveUp::NeverFinite));
+        }
     }
 }
 
@@ -70,11 +86,12 @@ impl Segment<'_> {
         self.y0.len()
     }
 
-    /// f(t, y) on this segment's piece, counted. Does not return when the budget is spent.
+    /// f(t, y) on this segment's piece, counted. Does not return when the budget is spent, nor
+    /// after a thousand values in a row that are not finite.
     pub fn derivative(&self, t: f64, y: &[f64], dy: &mut [f64]) {
         self.counter.spend(&self.counter.evaluations);
         self.dynamics.derivative(t, y, self.piece, dy);
-        self.counter.finite.set(dy.iter().all(|d| d.is_finite()));
+        self.counter.look(dy);
     }
 
     /// ∂f/∂y on this segment's piece, row by row, counted. Does not return when the budget is
@@ -91,7 +108,7 @@ impl Segment<'_> {
 
     /// Whether the last right-hand side was finite.
     pub fn last_derivative_was_finite(&self) -> bool {
-        self.counter.finite.get()
+        self.counter.not_finite.get() == 0
     }
 }
 
@@ -127,6 +144,11 @@ impl Recorder {
         self.trajectory.y.extend_from_slice(y);
         self.accepted += 1;
         Ok(())
+    }
+
+    /// The state at the last accepted step, or at the start.
+    pub fn last_state(&self) -> &[f64] {
+        self.trajectory.last().map_or(&[], |(_, y)| y)
     }
 
     /// Takes down how many attempted steps were thrown away since this was last called. An

@@ -1,9 +1,9 @@
 //! Runs a solver over a problem and survives whatever it does.
 
-use crate::segment::{BudgetSpent, Counter};
+use crate::segment::{Counter, GiveUp};
 use crate::{
     Control, Corners, Failure, InitialValueProblem, Limits, Outcome, Recorder, Run, Segment,
-    Solver, Trajectory, Work,
+    Solver, Work,
 };
 use std::any::Any;
 use std::cell::Cell;
@@ -37,7 +37,7 @@ pub fn solve(
         problem.check(&scale)?;
         recorder = Recorder::new(problem.start, &problem.y0, &scale);
         for (start, end, piece) in problem.segments(corners) {
-            let y0 = last_state(&recorder.trajectory).to_vec();
+            let y0 = recorder.last_state().to_vec();
             let dynamics = problem.dynamics;
             let scale = &scale;
             let counter = &counter;
@@ -63,10 +63,6 @@ pub fn solve(
             Err(why) => Outcome::Failed { at, why },
         },
     }
-}
-
-fn last_state(trajectory: &Trajectory) -> &[f64] {
-    trajectory.last().map_or(&[], |(_, y)| y)
 }
 
 /// One segment. A solver's word that it has arrived is checked, and one that shrank its step
@@ -97,8 +93,10 @@ fn run_segment(
 }
 
 fn failure_of(payload: &(dyn Any + Send)) -> Failure {
-    if payload.is::<BudgetSpent>() {
-        return Failure::TooManyEvaluations;
+    match payload.downcast_ref() {
+        Some(GiveUp::BudgetSpent) => return Failure::TooManyEvaluations,
+        Some(GiveUp::NeverFinite) => return Failure::NotFinite,
+        None => {}
     }
     let words = payload.downcast_ref::<String>().map(String::as_str);
     let words = words.or_else(|| payload.downcast_ref::<&str>().copied());

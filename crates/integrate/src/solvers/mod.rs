@@ -1,11 +1,19 @@
 //! The list of solvers. A new one is a file here and a line in [`SOLVERS`].
 
+mod bdf;
+mod dop853;
+mod dop853_autonomous;
+mod dopri5;
+mod esdirk34;
 mod explicit_euler;
 mod heun;
 mod implicit_euler;
 mod implicit_midpoint;
+mod ode_solvers_rk4;
 mod rk4;
+mod tr_bdf2;
 mod trapezoidal;
+mod tsit45;
 
 use crate::{Control, FAULTY, Failure, Recorder, Segment};
 
@@ -46,6 +54,14 @@ pub const SOLVERS: &[Solver] = &[
     implicit_euler::SOLVER,
     implicit_midpoint::SOLVER,
     trapezoidal::SOLVER,
+    ode_solvers_rk4::SOLVER,
+    dopri5::SOLVER,
+    dop853::SOLVER,
+    dop853_autonomous::SOLVER,
+    tsit45::SOLVER,
+    bdf::SOLVER,
+    tr_bdf2::SOLVER,
+    esdirk34::SOLVER,
 ];
 
 /// The named sets of [`set`].

@@ -27,9 +27,9 @@ where
     }
 }
 
-/// A forced, nonlinear problem with a known solution, in two states of different size:
-/// y₁' = y₂/s − (y₁² + y₁ − cos²t − cos t), y₂' = −s y₁ + s cos t · sin t (y₂/s + sin t) − s·0
-/// with y₁ = cos t, y₂ = −s sin t.
+/// A forced, nonlinear problem in two states of different size, with v = y₂/s:
+/// y₁' = v − (y₁² + y₁ − cos²t − cos t), v' = −y₁ − cos t sin t (v + sin t);
+/// solved by y₁ = cos t, v = −sin t.
 pub(crate) struct Forced {
     pub(crate) s: f64,
 }

@@ -1,5 +1,8 @@
 //! What the solvers do, over their list.
 
 mod common;
+mod corners;
+mod failures;
 mod order;
 mod versions;
+mod work;
