@@ -12,8 +12,8 @@ pub(crate) enum GiveUp {
     NeverFinite,
 }
 
-/// Right-hand sides in a row that are not finite before a solver is given up. Halving a step at each
-/// attempt gets below what a clock resolves long before; some solvers go on for ever.
+/// Right-hand sides in a row that are not finite before a solver is given up. Halving a step at
+/// each attempt gets below what a clock resolves long before; some solvers go on for ever.
 const HOPELESS: u32 = 1000;
 
 /// Counts what is asked of the right-hand side, over all segments of a run.

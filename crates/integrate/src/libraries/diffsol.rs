@@ -10,8 +10,8 @@
 //!   For the guess it looks ahead without regard to the stop time, past the end of a short segment.
 //! - The error norm is joined by `max`, which drops a NaN, so a step to NaN is *accepted*: the
 //!   recorder refuses it.
-//! - A derivative that is not a number at the start makes the first step NaN, and Newton's method is
-//!   then tried for ever; our wrapper gives up after a thousand such derivatives in a row.
+//! - A derivative that is not a number at the start makes the first step NaN, and Newton's method
+//!   is then tried for ever; our wrapper gives up after a thousand such derivatives in a row.
 //! - The Jacobian is asked for as products with the unit vectors, first to last: the matrix is
 //!   evaluated for the first and kept for the others.
 

@@ -1,6 +1,6 @@
-//! `Dop853` of ode_solvers with the time as one more state, τ' = 1: the remedy for its wrong nodes. The
-//! time weighs nothing in the error, but counts in its mean over the states, which loosens the
-//! tolerance by √((n + 1)/n).
+//! `Dop853` of ode_solvers with the time as one more state, τ' = 1: the remedy for its wrong
+//! nodes. The time weighs nothing in the error, but counts in its mean over the states, which
+//! loosens the tolerance by √((n + 1)/n).
 
 use super::{Order, Solver};
 use crate::libraries::ode_solvers;

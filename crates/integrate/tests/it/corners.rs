@@ -1,9 +1,9 @@
-//! Breakpoints, grids and sets.
+//! Breakpoints, grids, sizes and sets.
 
 use crate::common::{Scalar, run, slope};
 use integrate::{
-    Control, Corners, InitialValueProblem, Limits, Order, Outcome, SETS, SOLVERS, Trajectory, set,
-    solve, solver,
+    Control, Corners, Dynamics, InitialValueProblem, Limits, Order, Outcome, SETS, SOLVERS,
+    Trajectory, set, solve, solver,
 };
 use proptest::prelude::*;
 
@@ -15,7 +15,7 @@ fn sign(k: usize) -> f64 {
 }
 
 /// y' = s(t) − y, where s jumps between ±1 at the turns; y(0) = 0.
-fn switched(dynamics: &dyn integrate::Dynamics) -> InitialValueProblem<'_> {
+fn switched(dynamics: &dyn Dynamics) -> InitialValueProblem<'_> {
     let breakpoints = TURNS.to_vec();
     InitialValueProblem { dynamics, start: 0.0, end: 4.0, y0: vec![0.0], breakpoints }
 }
@@ -116,6 +116,71 @@ fn the_long_run_of_the_library_rk4_is_ours_to_rounding() {
     assert_eq!(ours.t, theirs.t);
     let apart = ours.y.iter().zip(&theirs.y).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(apart < 1e-12, "{apart:.1e} apart");
+}
+
+/// Decays of n states at different rates, the fastest given.
+struct Decays {
+    n: usize,
+    fastest: f64,
+}
+
+impl Decays {
+    fn rate(&self, i: usize) -> f64 {
+        self.fastest / (i + 1) as f64
+    }
+}
+
+impl Dynamics for Decays {
+    fn dimension(&self) -> usize {
+        self.n
+    }
+    fn derivative(&self, _: f64, y: &[f64], _: Option<usize>, dy: &mut [f64]) {
+        for (i, dy) in dy.iter_mut().enumerate() {
+            *dy = -self.rate(i) * y[i];
+        }
+    }
+    fn jacobian(&self, _: f64, _: &[f64], _: Option<usize>, jacobian: &mut [f64]) {
+        jacobian.fill(0.0);
+        for i in 0..self.n {
+            jacobian[i * self.n + i] = -self.rate(i);
+        }
+    }
+    fn scale(&self) -> Vec<f64> {
+        vec![1.0; self.n]
+    }
+}
+
+fn decay<'a>(dynamics: &'a Decays, breakpoints: &[f64]) -> InitialValueProblem<'a> {
+    let y0 = vec![1.0; dynamics.n];
+    let breakpoints = breakpoints.to_vec();
+    InitialValueProblem { dynamics, start: 0.0, end: 2.0, y0, breakpoints }
+}
+
+#[test]
+fn every_solver_takes_any_number_of_states() {
+    for n in 1..=12 {
+        let decays = Decays { n, fastest: 3.0 };
+        for solver in SOLVERS {
+            let control = if matches!(solver.order, Order::Fixed(_)) { 1e-3 } else { 1e-8 };
+            let run = run(solver, &decay(&decays, &[1.0]), control, Corners::Restart);
+            assert_eq!(run.outcome, Outcome::Solved, "{} with {n} states", solver.name);
+            let (_, y) = run.trajectory.last().unwrap();
+            let errors = (0..n).map(|i| (y[i] - (-2.0 * decays.rate(i)).exp()).abs());
+            let error = errors.fold(0.0, f64::max);
+            assert!(error < 2e-3, "{} with {n} states: off by {error:.1e}", solver.name);
+        }
+    }
+}
+
+#[test]
+fn stiffness_costs_explicit_methods_steps_but_does_not_stop_them() {
+    let stiff = Decays { n: 2, fastest: 1e5 };
+    for solver in set("@adaptive").unwrap() {
+        let run = run(solver, &decay(&stiff, &[]), 1e-6, Corners::Restart);
+        assert_eq!(run.outcome, Outcome::Solved, "{}", solver.name);
+        let steps = run.work.accepted;
+        assert_eq!(steps < 1000, solver.implicit, "{}: {steps} steps", solver.name);
+    }
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Every solver of the list converges with its declared order on smooth, forced problems.
 //!
-//! Dop853 needs a word: at an error of 1e-12 its steps are still a third of a radian, where the next
-//! terms of its error are not small. Its slope is 7.9 to 9.5 over two decades, depending on the
-//! problem, and near 8 on these two.
+//! Dop853 needs a word: at an error of 1e-12 its steps are still a third of a radian, where the
+//! next terms of its error are not small. Its slope is 7.9 to 9.5 over two decades, depending on
+//! the problem, and near 8 on these two.
 
 use crate::common::{Forced, Scalar, run, slope};
 use integrate::{Corners, Dynamics, InitialValueProblem, Order, Outcome, SOLVERS, Solver};
