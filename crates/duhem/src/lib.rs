@@ -1,1 +1,36 @@
-//! duhem
+//! Duhem models of friction: the models of the paper, the inputs that drive them, their closed forms
+//! and the measures of hysteresis.
+//!
+//! The paper is Padthe, Drincic, Oh, Rizos, Fassois and Bernstein, "Duhem Modeling of Friction-Induced
+//! Hysteresis", IEEE Control Systems Magazine 28(5), 2008. An equation stands directly above the
+//! function that is it and ends with its number in brackets, so a search for the number in brackets
+//! finds the function. Where the print does not hold the text there says *Printed … Read as … because …*.
+//!
+//! **Invariant.** This crate knows no solvers, no files, no plots and no clocks: everything in it is a
+//! function of its arguments.
+//!
+//! Read first: [`FrictionModel`], what a model of friction is; [`Input`], what drives it;
+//! [`closed_form::Reference`], what it answers exactly.
+
+pub mod closed_form;
+pub mod form;
+pub mod input;
+pub mod measures;
+pub mod models;
+mod parameters;
+
+pub use form::{DuhemForm, DuhemType};
+pub use input::{Input, InputError};
+pub use models::{Coulomb, Dahl, FrictionModel, LuGre, MODELS, MaxwellSlip, ModelEntry};
+pub use parameters::{Parameter, ParameterError, Parameters};
+
+/// The paper's sign: sgn 0 = 0, where `f64::signum` gives ±1. Not a number stays not a number.
+pub fn sgn(v: f64) -> f64 {
+    if v > 0.0 {
+        1.0
+    } else if v < 0.0 {
+        -1.0
+    } else {
+        v.abs()
+    }
+}

@@ -1,0 +1,1 @@
+//! Measures of hysteresis from samples of a loop.
