@@ -21,7 +21,7 @@ pub enum ReportError {
         /// The figure.
         figure: String,
         /// Its kind.
-        kind: &'static str,
+        kind: String,
         /// What stands there.
         found: String,
         /// What is needed.

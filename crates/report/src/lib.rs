@@ -6,14 +6,30 @@
 //! Read first: [`render`] (everything there is to render), [`FigureKind`] (one kind of figure),
 //! [`Drawing`] (a drawn figure).
 
+/// Adds formatted text to a string, which has no way to fail.
+macro_rules! put {
+    ($out:expr, $($text:tt)*) => {{
+        use std::fmt::Write as _;
+        let _ = $out.write_fmt(format_args!($($text)*));
+    }};
+}
+
+mod chapter;
 mod error;
+mod escape;
 mod figures;
+mod grid;
+mod html;
+mod markdown;
+mod number;
 mod plot;
+mod select;
 
 pub use error::ReportError;
 pub use figures::{Datum, Drawing, FIGURES, FigureKind};
 pub use plot::Panel;
 
+use chapter::Chapter;
 use record::Summary;
 
 /// One file to be written.
@@ -27,6 +43,19 @@ pub struct Output {
 
 /// Renders everything there is to render from the summaries.
 pub fn render(summaries: &[Summary]) -> Result<Vec<Output>, ReportError> {
-    let _ = summaries;
-    Ok(vec![Output { path: "index.html".to_owned(), bytes: Vec::new() }])
+    let chapters = summaries.iter().map(Chapter::new).collect::<Result<Vec<_>, _>>()?;
+    let text = |path: String, text: String| Output { path, bytes: text.into_bytes() };
+    let mut all = vec![
+        text("index.html".to_owned(), html::page(&chapters)),
+        text("README.md".to_owned(), markdown::front(&chapters)),
+    ];
+    for chapter in &chapters {
+        let path = format!("{}/README.md", chapter.folder);
+        if all.iter().any(|output| output.path.eq_ignore_ascii_case(&path)) {
+            return Err(ReportError::SameName { path });
+        }
+        all.push(text(path, markdown::chapter(chapter)));
+        all.extend(chapter.files());
+    }
+    Ok(all)
 }

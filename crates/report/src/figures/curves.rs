@@ -1,18 +1,48 @@
-//! Curves on given axes: hysteresis loops, histories.
+//! Curves on given axes: hysteresis loops, histories of steps.
 
-use super::Drawing;
-use crate::ReportError;
-use record::{FigureRow, Summary};
+use super::{Drawing, incomplete, of_charts};
+use crate::plot::{Axis, Chart, Line, Look};
+use crate::select::distinct;
+use crate::{ReportError, number};
+use record::{CurveRow, FigureRow, PanelRow, Summary};
 
-/// The curves of a figure's panels.
+/// More points than these are a line, fewer are marked one by one.
+const FEW: usize = 12;
+
+/// The figure's panels with their curves.
 pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, ReportError> {
-    if summary.panels.iter().all(|panel| panel.figure != figure.figure) {
-        return Err(ReportError::Incomplete {
-            figure: figure.figure.clone(),
-            kind: "curves",
-            found: "no row in the table of panels".to_owned(),
-            expected: "one or more".to_owned(),
-        });
+    let panels: Vec<&PanelRow> =
+        summary.panels.iter().filter(|row| row.figure == figure.figure).collect();
+    if panels.is_empty() {
+        return Err(incomplete(figure, "no row in the table of panels", "one or more"));
     }
-    Ok(Drawing::default())
+    let rows: Vec<&CurveRow> =
+        summary.curves.iter().filter(|row| row.figure == figure.figure).collect();
+    let names = distinct(rows.iter().map(|row| row.series.as_str()));
+    let size = if panels.len() == 1 { (640.0, 340.0) } else { (414.0, 260.0) };
+    let chart = |panel: &&PanelRow| {
+        let axis = |label: &str, from, to, log| {
+            Axis { label: label.to_owned(), from, to, log, at: Vec::new() }.checked()
+        };
+        Chart {
+            title: number::point(&panel.panel),
+            x: axis(&panel.x, panel.x_min, panel.x_max, panel.x_log),
+            y: axis(&panel.y, panel.y_min, panel.y_max, panel.y_log),
+            lines: lines(&rows, panel, &names),
+            size,
+            ..Chart::default()
+        }
+    };
+    of_charts(figure, panels.iter().map(chart).collect(), 2.min(panels.len()))
+}
+
+fn lines(rows: &[&CurveRow], panel: &PanelRow, names: &[&str]) -> Vec<Line> {
+    let line = |(n, name): (usize, &&str)| {
+        let own = rows.iter().filter(|row| row.panel == panel.panel && row.series == **name);
+        let points: Vec<_> = own.map(|row| (row.x, row.y)).collect();
+        let marks = points.len() <= FEW;
+        let look = if Look::is_solver(name) { Look::of_solver(name) } else { Look::nth(n) };
+        Line { name: number::point(name), note: String::new(), look, points, marks }
+    };
+    names.iter().enumerate().map(line).filter(|line| !line.points.is_empty()).collect()
 }

@@ -1,9 +1,14 @@
 //! The kinds of figures: one file each, one line in [`FIGURES`].
 
+mod collapse;
+mod convergence;
 mod curves;
+mod orders;
+mod tolerance;
+mod work_precision;
 
 use crate::ReportError;
-use crate::plot::Panel;
+use crate::plot::{Chart, Fault, Panel, align};
 use record::{FigureRow, Summary};
 
 /// One kind of figure.
@@ -15,8 +20,17 @@ pub struct FigureKind {
     pub draw: fn(&FigureRow, &Summary) -> Result<Drawing, ReportError>,
 }
 
-/// Every kind.
-pub const FIGURES: &[FigureKind] = &[FigureKind { name: "curves", draw: curves::draw }];
+/// Every kind; a loop and a history are curves under the names their studies use.
+pub const FIGURES: &[FigureKind] = &[
+    FigureKind { name: "collapse", draw: collapse::draw },
+    FigureKind { name: "convergence", draw: convergence::draw },
+    FigureKind { name: "curves", draw: curves::draw },
+    FigureKind { name: "history", draw: curves::draw },
+    FigureKind { name: "loop", draw: curves::draw },
+    FigureKind { name: "orders", draw: orders::draw },
+    FigureKind { name: "tolerance", draw: tolerance::draw },
+    FigureKind { name: "work_precision", draw: work_precision::draw },
+];
 
 /// A drawn figure: its panels, and what is drawn in them.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -44,6 +58,82 @@ pub struct Datum {
     pub x: Option<f64>,
     /// Vertical; none where there is nothing to measure.
     pub y: Option<f64>,
-    /// What became of it, where that is not plain; else empty.
+    /// How the case failed; else empty.
     pub note: String,
+}
+
+/// Draws the figure of this row, by its kind.
+pub(crate) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, ReportError> {
+    let kind = FIGURES.iter().find(|kind| kind.name == figure.kind);
+    let kind = kind.ok_or_else(|| ReportError::UnknownKind {
+        experiment: summary.name.clone(),
+        figure: figure.figure.clone(),
+        kind: figure.kind.clone(),
+        known: FIGURES.iter().map(|kind| kind.name).collect::<Vec<_>>().join(", "),
+    })?;
+    (kind.draw)(figure, summary)
+}
+
+/// The error for what plotters says.
+fn fault(figure: &FigureRow) -> impl Fn(Fault) -> ReportError {
+    |why| ReportError::Drawing { figure: figure.figure.clone(), why }
+}
+
+/// The error for a row or table that lacks something.
+fn incomplete(figure: &FigureRow, found: &str, expected: &str) -> ReportError {
+    ReportError::Incomplete {
+        figure: figure.figure.clone(),
+        kind: figure.kind.clone(),
+        found: found.to_owned(),
+        expected: expected.to_owned(),
+    }
+}
+
+/// A figure of charts, so many side by side, with the values they show.
+fn of_charts(
+    figure: &FigureRow,
+    mut charts: Vec<Chart>,
+    columns: usize,
+) -> Result<Drawing, ReportError> {
+    if charts.is_empty() {
+        return Err(incomplete(figure, "no case that it could show", "one or more"));
+    }
+    align(&mut charts, columns);
+    let panels = charts.iter().map(Chart::draw).collect::<Result<_, _>>().map_err(fault(figure))?;
+    let same = |label: fn(&Chart) -> &str, otherwise: &str| {
+        let first = label(&charts[0]);
+        if charts.iter().all(|chart| label(chart) == first) { first } else { otherwise }.to_owned()
+    };
+    let x = same(|chart| &chart.x.label, "x");
+    let y = same(|chart| &chart.y.label, "y");
+    Ok(Drawing { panels, columns, data: charts.iter().flat_map(values).collect(), x, y })
+}
+
+fn values(chart: &Chart) -> Vec<Datum> {
+    let datum = |series: &str, x: f64, y: Option<f64>, note: &str| Datum {
+        panel: chart.title.clone(),
+        series: series.to_owned(),
+        x: Some(x),
+        y,
+        note: note.to_owned(),
+    };
+    let lines = chart.lines.iter().flat_map(|line| {
+        let drawn = line.points.iter().filter(|point| point.1.is_finite());
+        drawn.map(|point| datum(&line.name, point.0, Some(point.1), ""))
+    });
+    let lane = chart
+        .lane
+        .iter()
+        .flat_map(|row| row.marks.iter().map(|(x, status)| datum(&row.name, *x, None, status)));
+    lines.chain(lane).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_is_listed_once_and_in_order() {
+        assert!(FIGURES.windows(2).all(|pair| pair[0].name < pair[1].name));
+    }
 }

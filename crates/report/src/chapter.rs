@@ -1,0 +1,179 @@
+//! One experiment on its way to the pages: its tables, its folder, its drawn figures.
+
+use crate::figures::{Drawing, draw};
+use crate::number;
+use crate::plot::file;
+use crate::{Output, ReportError, escape};
+use record::{ClaimRow, FigureRow, Summary};
+
+/// An experiment with its figures drawn.
+#[derive(Debug)]
+pub(crate) struct Chapter<'a> {
+    /// The tables.
+    pub(crate) summary: &'a Summary,
+    /// The folder in `reports/`, and the element in the page.
+    pub(crate) folder: String,
+    /// The figures, in the table's order.
+    pub(crate) figures: Vec<Figure<'a>>,
+}
+
+/// A drawn figure.
+#[derive(Debug)]
+pub(crate) struct Figure<'a> {
+    /// Its row.
+    pub(crate) row: &'a FigureRow,
+    /// Its file, without extension.
+    pub(crate) name: String,
+    /// Its element in the page.
+    pub(crate) id: String,
+    /// What is drawn.
+    pub(crate) drawing: Drawing,
+}
+
+impl<'a> Chapter<'a> {
+    /// Draws the experiment's figures.
+    pub(crate) fn new(summary: &'a Summary) -> Result<Self, ReportError> {
+        let folder = escape::slug(&summary.name);
+        let mut figures: Vec<Figure> = Vec::new();
+        for row in &summary.figures {
+            let name = escape::slug(&row.figure);
+            let csv = format!("{name}.csv");
+            // The tables themselves stand in the same folder.
+            let taken = figures.iter().any(|other| other.name.eq_ignore_ascii_case(&name));
+            if taken || Summary::FILES.iter().any(|table| table.eq_ignore_ascii_case(&csv)) {
+                return Err(ReportError::SameName { path: format!("{folder}/{csv}") });
+            }
+            let id = format!("{folder}--{name}");
+            figures.push(Figure { row, name, id, drawing: draw(row, summary)? });
+        }
+        Ok(Self { summary, folder, figures })
+    }
+
+    /// The experiment's title, or its name if it has none.
+    pub(crate) fn title(&self) -> &str {
+        Some(self.summary.about("title")).filter(|t| !t.is_empty()).unwrap_or(&self.summary.name)
+    }
+
+    /// The figure a claim points to.
+    pub(crate) fn shown(&self, claim: &ClaimRow) -> Option<&Figure<'a>> {
+        self.figures.iter().find(|figure| figure.row.figure == claim.figure)
+    }
+
+    /// The figures of one study; those of no study belong to the empty name.
+    pub(crate) fn figures_of(&self, study: &str) -> impl Iterator<Item = &Figure<'a>> {
+        let known = |name: &str| self.summary.studies.iter().any(|row| row.study == name);
+        self.figures.iter().filter(move |figure| {
+            let own = figure.row.study.as_str();
+            own == study || (study.is_empty() && !known(own))
+        })
+    }
+
+    /// The figures' own files: pictures and the values in them.
+    pub(crate) fn files(&self) -> impl Iterator<Item = Output> {
+        self.figures.iter().flat_map(|figure| {
+            let path = |ending: &str| format!("{}/{}.{ending}", self.folder, figure.name);
+            let drawing = &figure.drawing;
+            let (title, description) = (&figure.row.title, &figure.row.description);
+            let svg = file(&drawing.panels, drawing.columns, title, description);
+            [
+                Output { path: path("svg"), bytes: svg.into_bytes() },
+                Output { path: path("csv"), bytes: csv(drawing).into_bytes() },
+            ]
+        })
+    }
+}
+
+/// The values in a figure, with the axes' labels as headers.
+fn csv(drawing: &Drawing) -> String {
+    let header = ["panel", "series", &drawing.x, &drawing.y, "failure"];
+    let line = |fields: [&str; 5]| fields.map(escape::csv).join(",") + "\n";
+    let value = |v: Option<f64>| v.map_or_else(String::new, |v| format!("{v:?}"));
+    let rows = drawing.data.iter().map(|datum| {
+        let (x, y) = (value(datum.x), value(datum.y));
+        line([&datum.panel, &datum.series, &x, &y, &datum.note])
+    });
+    std::iter::once(line(header)).chain(rows).collect()
+}
+
+/// What the front says first: how many claims hold, and the verdicts.
+pub(crate) fn count_of_claims(claims: &[&ClaimRow]) -> String {
+    let total = claims.len();
+    if total == 0 {
+        return "No claim of the paper is tested here.".to_owned();
+    }
+    let held = |holds| claims.iter().filter(|claim| claim.holds == holds).count();
+    let kinds = ["reproduced", "contradicted", "under-specified", "qualitative"];
+    let verdicts: Vec<String> = kinds
+        .iter()
+        .map(|kind| (claims.iter().filter(|claim| claim.verdict == *kind).count(), kind))
+        .filter(|(n, _)| *n > 0)
+        .map(|(n, kind)| format!("{n} {kind}"))
+        .collect();
+    let (yes, no, open) = (held(Some(true)), held(Some(false)), held(None));
+    let plural =
+        |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
+    let mut parts = vec![plural(yes, "holds", "hold"), plural(no, "does not", "do not")];
+    if open > 0 {
+        parts.push(format!("{open} cannot be decided"));
+    }
+    let last = parts.pop().unwrap_or_default();
+    let tested = plural(total, "claim", "claims");
+    let verdicts =
+        if verdicts.is_empty() { String::new() } else { format!(": {}", verdicts.join(", ")) };
+    format!("Of {tested} of the paper, {} and {last}{verdicts}.", parts.join(", "))
+}
+
+/// A verdict's sign, told apart without colour.
+pub(crate) fn sign(verdict: &str) -> &'static str {
+    match verdict {
+        "reproduced" => "✓",
+        "contradicted" => "✗",
+        "under-specified" => "?",
+        "qualitative" => "≈",
+        _ => "·",
+    }
+}
+
+/// Whether the claim holds, where the verdict alone does not say it.
+pub(crate) fn holds(claim: &ClaimRow) -> &'static str {
+    match (claim.verdict.as_str(), claim.holds) {
+        ("reproduced", Some(true)) | ("contradicted", Some(false)) => "",
+        (_, Some(true)) => "holds",
+        (_, Some(false)) => "does not hold",
+        (_, None) => "cannot be decided",
+    }
+}
+
+/// Our number of a claim with its error.
+pub(crate) fn ours(claim: &ClaimRow) -> String {
+    claim.ours.map_or_else(
+        || number::NONE.to_owned(),
+        |value| number::with_error(value, claim.error, &claim.unit),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_front_counts_what_holds_and_what_does_not() {
+        let claim = |verdict: &str, holds| ClaimRow {
+            verdict: verdict.to_owned(),
+            holds,
+            ..ClaimRow::default()
+        };
+        let claims = [
+            claim("reproduced", Some(true)),
+            claim("contradicted", Some(false)),
+            claim("qualitative", Some(true)),
+            claim("under-specified", None),
+        ];
+        assert_eq!(
+            count_of_claims(&claims.iter().collect::<Vec<_>>()),
+            "Of 4 claims of the paper, 2 hold, 1 does not and 1 cannot be decided: \
+             1 reproduced, 1 contradicted, 1 under-specified, 1 qualitative."
+        );
+        assert_eq!(count_of_claims(&[]), "No claim of the paper is tested here.");
+    }
+}

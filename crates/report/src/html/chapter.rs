@@ -1,0 +1,116 @@
+//! One experiment: its physics, its figures, its tables.
+
+use super::paragraphs;
+use crate::chapter::{Chapter, Figure};
+use crate::escape::html;
+use crate::grid;
+use crate::number;
+use crate::plot::inline;
+use crate::select::distinct;
+use record::StudyRow;
+
+/// Writes the experiment.
+pub(super) fn write(out: &mut String, chapter: &Chapter) {
+    let (id, title) = (&chapter.folder, html(chapter.title()));
+    let summary = chapter.summary;
+    put!(out, "<section id=\"{id}\" class=\"chapter\">\n<h2>{title}</h2>\n");
+    if !summary.about("paper").is_empty() {
+        put!(out, "<p class=\"place\">{}</p>\n", html(summary.about("paper")));
+    }
+    out.push_str(&paragraphs(summary.about("text")));
+    for study in &summary.studies {
+        write_study(out, study);
+        chapter.figures_of(&study.study).for_each(|figure| write_figure(out, chapter, figure));
+    }
+    chapter.figures_of("").for_each(|figure| write_figure(out, chapter, figure));
+    if let Some(table) = grid::measures(summary) {
+        out.push_str("<h3>Measured quantities</h3>\n");
+        out.push_str(&table.html("Measured quantities"));
+    }
+    for study in distinct(summary.cases.iter().map(|case| case.study.as_str())) {
+        write_errors(out, chapter, study);
+    }
+    out.push_str("</section>\n");
+}
+
+fn write_study(out: &mut String, study: &StudyRow) {
+    let name = html(&study.study);
+    put!(out, "<h3>{name}</h3>\n{}", paragraphs(&study.text));
+    let mut told = vec![("Model", study.model.clone()), ("Input", study.input.clone())];
+    if !study.reference.is_empty() {
+        let error = study.reference_error.map_or_else(String::new, |error| {
+            format!(", relative rounding error {}", number::error(Some(error)))
+        });
+        told.push(("Errors against", format!("{}{error}", study.reference)));
+    }
+    told.retain(|(_, text)| !text.is_empty());
+    out.push_str("<dl class=\"study\">");
+    for (key, text) in told {
+        put!(out, "<dt>{key}<dd>{}", html(&text));
+    }
+    out.push_str("</dl>\n");
+}
+
+fn write_figure(out: &mut String, chapter: &Chapter, figure: &Figure) {
+    let (row, drawing) = (figure.row, &figure.drawing);
+    let width = drawing.panels.iter().map(|panel| panel.width).fold(0.0, f64::max);
+    let columns = drawing.columns.max(1) as f64;
+    put!(
+        out,
+        "<figure id=\"{id}\"><div class=\"panels\" role=\"region\" tabindex=\"0\" \
+         aria-label=\"{title}\" style=\"max-width:{room}px\">\n",
+        id = figure.id,
+        title = html(&row.title),
+        room = (columns * (width + 20.0)).ceil()
+    );
+    for (n, panel) in drawing.panels.iter().enumerate() {
+        out.push_str(&inline(panel, &format!("{}-{n}", figure.id), &row.title));
+    }
+    put!(
+        out,
+        "</div>\n<figcaption><b>{title}</b> {caption}<span class=\"sr\"> {description}</span>\n\
+         <small><a href=\"{folder}/{name}.svg\">SVG</a> · \
+         <a href=\"{folder}/{name}.csv\">data</a></small></figcaption></figure>\n",
+        title = html(&row.title),
+        caption = html(&row.caption),
+        description = html(&row.description),
+        folder = chapter.folder,
+        name = figure.name
+    );
+}
+
+fn write_errors(out: &mut String, chapter: &Chapter, study: &str) {
+    let summary = chapter.summary;
+    let name = html(study);
+    if let Some(table) = grid::orders(summary, study) {
+        put!(
+            out,
+            "<h3>{name}: observed orders</h3>\n<p>Each cell: restarted at corners / corners ignored.</p>\n{}",
+            table.html(&format!("Observed orders of {study}"))
+        );
+    }
+    if let Some(table) = grid::best(summary, study) {
+        put!(
+            out,
+            "<h3>{name}: errors</h3>\n<p>Each cell: the smallest of the largest errors over all controls, \
+             restarted at corners above, corners ignored below; then how many of the cases failed. \
+             Errors are relative to the reference’s largest value.</p>\n{}",
+            table.html(&format!("Smallest errors of {study}"))
+        );
+    }
+    let own = summary.cases.iter().filter(|case| case.study == study);
+    for point in distinct(own.clone().map(|case| case.point.as_str())) {
+        let count = own.clone().filter(|case| case.point == point).count();
+        let title =
+            if point.is_empty() { String::new() } else { format!(", {}", number::point(point)) };
+        let table = grid::cases(summary, study, point);
+        put!(
+            out,
+            "<details><summary>All {count} cases of {name}{}</summary>\n{}</details>\n",
+            html(&title),
+            table.html(&format!("Cases of {study}{title}"))
+        );
+    }
+    let folder = &chapter.folder;
+    put!(out, "<p><a href=\"{folder}/cases.csv\">All cases as CSV</a></p>\n");
+}

@@ -1,0 +1,154 @@
+//! The same as Markdown, one sentence per line.
+
+use crate::chapter::{Chapter, Figure, count_of_claims, holds, ours, sign};
+use crate::escape::{self, code_path, markdown, sentences};
+use crate::grid::{self};
+use crate::number;
+use crate::select::distinct;
+use record::ClaimRow;
+
+/// The front.
+pub(crate) fn front(chapters: &[Chapter]) -> String {
+    let claims: Vec<&ClaimRow> =
+        chapters.iter().flat_map(|chapter| &chapter.summary.claims).collect();
+    let mut out = format!(
+        "# Duhem\n\n{}\n\nThe same as one page: [index.html](index.html).\n",
+        markdown(&count_of_claims(&claims))
+    );
+    if !claims.is_empty() {
+        out.push_str("\n## Claims\n\n");
+        out.push_str(
+            "| verdict | the paper says | printed | ours | why |\n|---|---|---:|---:|---|\n",
+        );
+        for chapter in chapters {
+            chapter
+                .summary
+                .claims
+                .iter()
+                .for_each(|claim| out.push_str(&claim_row(chapter, claim)));
+        }
+    }
+    out.push_str("\n## Experiments\n");
+    for chapter in chapters {
+        let (folder, title) = (&chapter.folder, markdown(chapter.title()));
+        put!(out, "\n### [{title}]({folder}/README.md)\n\n");
+        for figure in &chapter.figures {
+            let title = markdown(&figure.row.title);
+            put!(out, "- [{title}]({folder}/{}.svg)\n", figure.name);
+        }
+    }
+    out
+}
+
+fn claim_row(chapter: &Chapter, claim: &ClaimRow) -> String {
+    let mut verdict = format!("{} {}", sign(&claim.verdict), markdown(&claim.verdict));
+    if !holds(claim).is_empty() {
+        put!(verdict, "<br>{}", holds(claim));
+    }
+    let mut why = vec![markdown(&claim.why), markdown(&claim.how)];
+    if let Some(figure) = chapter.shown(claim) {
+        let title = markdown(&figure.row.title);
+        why.push(format!("[{title}]({}/{}.svg)", chapter.folder, figure.name));
+    }
+    why.push(code(&claim.code, "../"));
+    why.retain(|part| !part.is_empty());
+    format!(
+        "| {verdict} | {says}<br>{place}<br>{id} | {printed} | {ours} | {why} |\n",
+        says = markdown(&claim.says),
+        place = markdown(&claim.place),
+        id = markdown(&claim.id),
+        printed = markdown(&number::printed(claim.printed, claim.digits, &claim.unit)),
+        ours = markdown(&ours(claim)),
+        why = why.join("<br>"),
+    )
+}
+
+fn code(place: &str, up: &str) -> String {
+    match code_path(place) {
+        Some(path) => format!("[{}]({up}{path})", markdown(place)),
+        None => markdown(place),
+    }
+}
+
+/// One experiment.
+pub(crate) fn chapter(chapter: &Chapter) -> String {
+    let summary = chapter.summary;
+    let mut out = format!("# {}\n", markdown(chapter.title()));
+    out.push_str(&prose(summary.about("paper")));
+    out.push_str(&prose(summary.about("text")));
+    out.push_str("\n[All reports](../README.md)\n");
+    for study in &summary.studies {
+        put!(out, "\n## {}\n{}", markdown(&study.study), prose(&study.text));
+        let told = [
+            ("Model", &study.model),
+            ("Input", &study.input),
+            ("Errors against", &study.reference),
+        ];
+        let told: Vec<_> = told.into_iter().filter(|(_, text)| !text.is_empty()).collect();
+        if !told.is_empty() {
+            out.push('\n');
+        }
+        for (key, text) in told {
+            put!(out, "- {key}: {}\n", markdown(text));
+        }
+        chapter.figures_of(&study.study).for_each(|figure| out.push_str(&picture(figure)));
+    }
+    chapter.figures_of("").for_each(|figure| out.push_str(&picture(figure)));
+    if let Some(table) = grid::measures(summary) {
+        put!(out, "\n## Measured quantities\n\n{}", table.markdown());
+    }
+    for study in distinct(summary.cases.iter().map(|case| case.study.as_str())) {
+        errors(&mut out, chapter, study);
+    }
+    out.push_str("\n## How it was made\n\n");
+    let told = ["title", "paper", "text"];
+    for row in summary.about.iter().filter(|row| !told.contains(&row.key.as_str())) {
+        put!(out, "- {}: {}\n", markdown(&row.key), markdown(&row.value));
+    }
+    out
+}
+
+fn errors(out: &mut String, chapter: &Chapter, study: &str) {
+    let name = markdown(study);
+    if let Some(table) = grid::orders(chapter.summary, study) {
+        put!(
+            out,
+            "\n## {name}: observed orders\n\nEach cell: restarted at corners / corners ignored.\n\n{}",
+            table.markdown()
+        );
+    }
+    if let Some(table) = grid::best(chapter.summary, study) {
+        put!(
+            out,
+            "\n## {name}: errors\n\nEach cell: the smallest of the largest errors over all controls, \
+             restarted at corners above, corners ignored below; then how many of the cases failed.\n\
+             Errors are relative to the reference’s largest value.\n\n{}\n\
+             Every case: [cases.csv](cases.csv).\n",
+            table.markdown()
+        );
+    }
+}
+
+fn picture(figure: &Figure) -> String {
+    let row = figure.row;
+    format!(
+        "\n### {title}\n\n![{description}]({name}.svg)\n{caption}\n[Data]({name}.csv)\n",
+        title = markdown(&row.title),
+        description = markdown(&row.description),
+        name = figure.name,
+        caption = prose(&row.caption),
+    )
+}
+
+/// Paragraphs, one sentence per line.
+fn prose(text: &str) -> String {
+    let mut out = String::new();
+    for part in text.split("\n\n").filter(|part| !part.trim().is_empty()) {
+        out.push('\n');
+        for sentence in sentences(part) {
+            out.push_str(&escape::markdown(&sentence));
+            out.push('\n');
+        }
+    }
+    out
+}

@@ -1,0 +1,269 @@
+//! A panel with two axes, lines with their names at their ends, and a lane for what failed.
+
+use super::axis::Axis;
+use super::canvas::{Canvas, Fault, Side, UNITS, sketch, units};
+use super::ink::{Ink, Look};
+use super::labels::{self, spread};
+use super::lane::{self, LaneRow, ROW};
+use super::{Panel, thin};
+use plotters::coord::CoordTranslate;
+use plotters::coord::cartesian::Cartesian2d;
+
+/// One line.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Line {
+    /// Its name.
+    pub(crate) name: String,
+    /// What is written behind the name; may be empty.
+    pub(crate) note: String,
+    /// How it looks.
+    pub(crate) look: Look,
+    /// Its points.
+    pub(crate) points: Vec<(f64, f64)>,
+    /// Whether each point has a mark.
+    pub(crate) marks: bool,
+}
+
+/// A reference to hold the lines against.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Guide {
+    /// Triangles of these falling slopes, lower left.
+    Slopes(Vec<u64>),
+    /// The line on which both axes have the same value, with its name.
+    Equal(&'static str),
+}
+
+/// A panel to be drawn.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Chart {
+    /// Its title; may be empty.
+    pub(crate) title: String,
+    /// The horizontal axis.
+    pub(crate) x: Axis,
+    /// The vertical axis.
+    pub(crate) y: Axis,
+    /// The lines, in the order they are drawn.
+    pub(crate) lines: Vec<Line>,
+    /// The failures.
+    pub(crate) lane: Vec<LaneRow>,
+    /// References.
+    pub(crate) guides: Vec<Guide>,
+    /// The whole width and the height between the axes' ends [px].
+    pub(crate) size: (f64, f64),
+    /// Room for names right of the plot [px] and rows of the lane, as [`align`] shares them.
+    pub(crate) margin: (f64, usize),
+}
+
+/// The height of a line of labels [px].
+const LABEL: f64 = 14.5;
+
+/// Gives the panels of a figure the same margins, and those side by side the same lane.
+pub(crate) fn align(charts: &mut [Chart], columns: usize) {
+    let names = charts.iter().flat_map(|chart| {
+        let lane = chart.lane.iter().map(|row| labels::width(&row.name));
+        chart.lines.iter().map(|line| labels::width(&line.label())).chain(lane)
+    });
+    let room = names.fold(0.0, f64::max) + 28.0;
+    let tall = charts.iter().map(|c| c.lines.len() as f64 * LABEL).fold(0.0, f64::max);
+    for row in charts.chunks_mut(columns.max(1)) {
+        let rows = row.iter().map(|chart| chart.lane.len()).max().unwrap_or(0);
+        for chart in row {
+            chart.margin = (room, rows);
+            chart.size.1 = chart.size.1.max(tall);
+        }
+    }
+}
+
+impl Line {
+    fn label(&self) -> String {
+        if self.note.is_empty() {
+            self.name.clone()
+        } else {
+            format!("{} {}", self.name, self.note)
+        }
+    }
+}
+
+/// Where things stand in a panel [px].
+struct Frame {
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+    lane: f64,
+    coordinates: Cartesian2d<Axis, Axis>,
+}
+
+impl Frame {
+    fn new(chart: &Chart) -> Self {
+        let ticks = chart.y.ticks(6);
+        let widest = ticks.iter().map(|(_, text)| labels::width(text)).fold(38.0, f64::max);
+        let (left, right) = (widest + 10.0, chart.size.0 - chart.margin.0);
+        let lane = if chart.title.is_empty() { 24.0 } else { 44.0 };
+        let top = lane + if chart.margin.1 > 0 { ROW * chart.margin.1 as f64 + 5.0 } else { 0.0 };
+        let bottom = top + chart.size.1;
+        let pixels = (units(left)..units(right), units(bottom)..units(top));
+        let coordinates = Cartesian2d::new(chart.x.clone(), chart.y.clone(), pixels);
+        Self { left, right, top, bottom, lane, coordinates }
+    }
+
+    fn place(&self, point: (f64, f64)) -> (f64, f64) {
+        let (x, y) = self.coordinates.translate(&point);
+        (f64::from(x) / UNITS, f64::from(y) / UNITS)
+    }
+
+    fn holds(&self, (x, y): (f64, f64)) -> bool {
+        let (x_in, y_in) = (self.left - 0.5..=self.right + 0.5, self.top - 0.5..=self.bottom + 0.5);
+        x_in.contains(&x) && y_in.contains(&y)
+    }
+}
+
+impl Chart {
+    /// Draws the panel.
+    pub(crate) fn draw(&self) -> Result<Panel, Fault> {
+        let frame = Frame::new(self);
+        let key = lane::key(&self.lane, self.size.0 - frame.left);
+        let height = frame.bottom + 42.0 + 17.0 * key.len() as f64;
+        let body = sketch((self.size.0, height), |canvas| {
+            self.draw_axes(canvas, &frame)?;
+            self.draw_guides(canvas, &frame)?;
+            // Rows stand at the lane's lower end, next to the plot.
+            let top = frame.lane + ROW * (self.margin.1.saturating_sub(self.lane.len())) as f64;
+            let along = |x| frame.place((x, self.y.from)).0;
+            lane::draw(canvas, &self.lane, (frame.left, top, frame.right), along)?;
+            self.draw_lines(canvas, &frame)?;
+            for (i, line) in key.iter().enumerate() {
+                let y = frame.bottom + 50.0 + 17.0 * i as f64;
+                canvas.text(line, (frame.left, y), Side::Right, Ink::Muted)?;
+            }
+            Ok(())
+        })?;
+        let (title, description) = (self.title.clone(), self.description());
+        Ok(Panel { title, description, width: self.size.0, height, body })
+    }
+
+    fn draw_axes(&self, canvas: &Canvas, frame: &Frame) -> Result<(), Fault> {
+        let (left, right, top, bottom) = (frame.left, frame.right, frame.top, frame.bottom);
+        if !self.title.is_empty() {
+            canvas.text(&self.title, (0.0, 11.0), Side::Right, Ink::Title)?;
+        }
+        let above = frame.lane - 13.0;
+        canvas.text(&self.y.label, (0.0, above), Side::Right, Ink::Muted)?;
+        canvas.text(&self.x.label, (right, bottom + 33.0), Side::Left, Ink::Muted)?;
+        for (value, text) in self.y.ticks(6) {
+            let y = frame.place((self.x.from, value)).1;
+            canvas.line(&[(left, y), (right, y)], Ink::Grid)?;
+            canvas.text(&text, (left - 7.0, y), Side::Left, Ink::Text)?;
+        }
+        for value in self.y.minor() {
+            let y = frame.place((self.x.from, value)).1;
+            canvas.line(&[(left - 3.0, y), (left, y)], Ink::Axis)?;
+        }
+        let mut free = f64::NEG_INFINITY;
+        let mut ticks = self.x.ticks(6);
+        ticks.sort_by(|a, b| self.x.share(a.0).total_cmp(&self.x.share(b.0)));
+        for (value, text) in ticks {
+            let x = frame.place((value, self.y.from)).0;
+            canvas.line(&[(x, top), (x, bottom)], Ink::Grid)?;
+            canvas.line(&[(x, bottom), (x, bottom + 4.0)], Ink::Axis)?;
+            let half = labels::width(&text) / 2.0;
+            if x - half > free {
+                canvas.text(&text, (x, bottom + 14.0), Side::Middle, Ink::Text)?;
+                free = x + half + 1.0;
+            }
+        }
+        canvas.line(&[(left, top), (left, bottom), (right, bottom)], Ink::Axis)
+    }
+
+    fn draw_guides(&self, canvas: &Canvas, frame: &Frame) -> Result<(), Fault> {
+        for guide in &self.guides {
+            match guide {
+                Guide::Slopes(slopes) => self.draw_slopes(canvas, frame, slopes)?,
+                Guide::Equal(name) => {
+                    let ends = [(self.x.from, self.x.from), (self.x.to, self.x.to)];
+                    let line = ends.map(|end| frame.place(end));
+                    let box_ends = ((frame.left, frame.top), (frame.right, frame.bottom));
+                    for piece in thin::visible(&line, box_ends.0, box_ends.1) {
+                        canvas.line(&piece, Ink::Guide)?;
+                        if let Some(end) = piece.last() {
+                            let at = (end.0 - 4.0, end.1 + 10.0);
+                            canvas.text(name, at, Side::Left, Ink::Muted)?;
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// One triangle beside the other, each falling by its slope over a factor of two.
+    fn draw_slopes(&self, canvas: &Canvas, frame: &Frame, slopes: &[u64]) -> Result<(), Fault> {
+        let run = frame.place((self.x.from * 2.0, self.y.to)).0 - frame.left;
+        let fall = frame.place((self.x.from, self.y.to * 0.5)).1 - frame.top;
+        let mut left = frame.left + 8.0;
+        for slope in slopes {
+            let (right, bottom) = (left + run, frame.bottom - 7.0);
+            let top = bottom - fall * *slope as f64;
+            if right + 12.0 > frame.right || top < frame.top {
+                break;
+            }
+            let corners = [(left, top), (right, bottom), (left, bottom), (left, top)];
+            canvas.line(&corners, Ink::Guide)?;
+            let at = (left + run * 0.5 + 3.0, f64::midpoint(top, bottom) - 8.0);
+            canvas.text(&slope.to_string(), at, Side::Right, Ink::Muted)?;
+            left = right + 8.0;
+        }
+        Ok(())
+    }
+
+    fn draw_lines(&self, canvas: &Canvas, frame: &Frame) -> Result<(), Fault> {
+        let mut ends = Vec::new();
+        for line in &self.lines {
+            let (low, high) = ((frame.left, frame.top), (frame.right, frame.bottom));
+            let mut places = Vec::new();
+            // A value that is not there breaks the line.
+            for run in line.points.split(|p| !p.0.is_finite() || !p.1.is_finite()) {
+                let run: Vec<_> = run.iter().map(|p| frame.place(*p)).collect();
+                for piece in thin::visible(&run, low, high) {
+                    canvas.line(&piece, Ink::Line(line.look))?;
+                }
+                places.extend(run);
+            }
+            for place in places.iter().filter(|place| line.marks && frame.holds(**place)) {
+                canvas.mark(*place, line.look)?;
+            }
+            // The name stands beside the rightmost point, at most at the plot's edge.
+            let end = places.iter().copied().reduce(|a, b| if b.0 >= a.0 { b } else { a });
+            let end = end.map(|(x, y)| (x.min(frame.right), y.clamp(frame.top, frame.bottom)));
+            ends.extend(end.map(|end| (end, line)));
+        }
+        let wished: Vec<f64> = ends.iter().map(|(end, _)| end.1).collect();
+        let heights = spread(&wished, LABEL, frame.top + 5.0, frame.bottom - 5.0);
+        for (((x, y), line), height) in ends.into_iter().zip(heights) {
+            let start = (x + 5.0).min(frame.right);
+            canvas.line(&[(start, y), (frame.right + 10.0, height)], Ink::Leader)?;
+            canvas.mark((frame.right + 16.0, height), line.look)?;
+            let at = (frame.right + 24.0, height);
+            canvas.text(&line.label(), at, Side::Right, Ink::Label(line.look))?;
+        }
+        Ok(())
+    }
+
+    /// The panel in words.
+    fn description(&self) -> String {
+        let lines: Vec<String> = self.lines.iter().map(Line::label).collect();
+        let failed: Vec<String> = self
+            .lane
+            .iter()
+            .map(|row| format!("{} ({} of its cases)", row.name, row.marks.len()))
+            .collect();
+        let mut text = format!("{} against {}.", self.y.label, self.x.label);
+        if !lines.is_empty() {
+            put!(text, " Lines from top to bottom of the list: {}.", lines.join(", "));
+        }
+        if !failed.is_empty() {
+            put!(text, " Failed: {}.", failed.join(", "));
+        }
+        text
+    }
+}
