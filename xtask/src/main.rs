@@ -1,1 +1,55 @@
-fn main() {}
+//! `cargo xtask`: the only program, and the only place that prints.
+
+mod claims;
+mod cli;
+mod exit;
+mod list;
+mod new;
+mod output;
+mod progress;
+mod reproduce;
+mod root;
+mod screen;
+mod tidy;
+
+use clap::Parser;
+use cli::{Cli, Command};
+use exit::{Exit, Failure};
+use std::{panic, process::ExitCode};
+
+fn main() -> ExitCode {
+    quiet_panics_of_solvers();
+    let cli = Cli::parse();
+    let code = match panic::catch_unwind(|| run(&cli)) {
+        Ok(Ok(exit)) => exit,
+        Ok(Err(failure)) => {
+            output::error(&format!("{:#}", failure.error));
+            failure.exit
+        }
+        // The hook has said what and where.
+        Err(_) => Exit::Bug,
+    };
+    ExitCode::from(code as u8)
+}
+
+fn run(cli: &Cli) -> Result<Exit, Failure> {
+    let root = root::find(cli.root.as_deref())?;
+    match &cli.command {
+        Command::Reproduce(arguments) => reproduce::reproduce(&root, arguments),
+        Command::List { json } => list::list(&root, *json),
+        Command::Show { name, json } => list::show(&root, name, *json),
+        Command::Claims { json } => claims::claims(&root, *json),
+        Command::New { what } => new::new(&root, what),
+        Command::Tidy { json } => tidy::tidy(&root, *json),
+    }
+}
+
+/// A solver that panics is a result; the case tells of it, and standard error need not.
+fn quiet_panics_of_solvers() {
+    let usual = panic::take_hook();
+    panic::set_hook(Box::new(move |info| {
+        if !integrate::solving() {
+            usual(info);
+        }
+    }));
+}

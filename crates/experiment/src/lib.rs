@@ -1,1 +1,30 @@
-//! experiment
+//! An experiment from its TOML to its tables: read, checked, run, compared with the exact answer, judged.
+//!
+//! **Invariant**: draws nothing, prints nothing and knows no synthetic rig; a case that fails is a row and
+//! never an error.
+//!
+//! Read first: [`spec::Spec`] (the TOML as written), [`Plan`] (as checked, with every case), [`run()`] (the
+//! cases, run or found in the store).
+
+pub mod checks;
+mod compare;
+mod curves;
+mod drift;
+mod error;
+mod judge;
+mod orders;
+mod plan;
+pub mod quantities;
+mod run;
+pub mod spec;
+mod summary;
+
+pub use compare::NEAR_A_KINK;
+pub use drift::{Drift, drift};
+pub use error::ExperimentError;
+pub use plan::{
+    Case, Claim, Decision, Irreproducible, Measure, Plan, Point, Study, Subject, corners_name,
+    fixed_step,
+};
+pub use run::{Finished, Options, Progress, WATCHDOG, Why, run};
+pub use summary::summary;

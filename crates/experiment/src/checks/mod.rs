@@ -1,0 +1,46 @@
+//! Sentences that can be checked: one entry for each kind of sentence.
+
+mod dahl;
+mod energy;
+mod table1;
+
+use crate::plan::{Plan, Subject};
+
+/// What a check found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Checked {
+    /// Whether the sentence holds.
+    pub holds: bool,
+    /// The number that shows it.
+    pub value: Option<f64>,
+    /// A bound of its error.
+    pub error: Option<f64>,
+    /// Its unit; `1` for none.
+    pub unit: &'static str,
+    /// What was computed and within which tolerance.
+    pub how: String,
+}
+
+/// One kind of sentence.
+#[derive(Debug)]
+pub struct Check {
+    /// Its name in the TOML.
+    pub name: &'static str,
+    /// Where the code is.
+    pub code: &'static str,
+    /// Looks whether it holds.
+    pub run: fn(&Plan, &Subject) -> Result<Checked, String>,
+}
+
+/// All checks.
+pub const CHECKS: &[Check] = &[
+    dahl::COROLLARY_1,
+    dahl::LOCAL_MEMORY,
+    dahl::FRICTION_LAG,
+    dahl::EQUATION_14,
+    dahl::FINITE_SATURATION,
+    energy::ORIENTATION,
+    table1::DUHEM_TYPE,
+    table1::RATE,
+    table1::CONTINUITY,
+];

@@ -1,0 +1,158 @@
+//! A run against the exact answer, in several norms.
+//!
+//! Errors are taken at the solver's own accepted steps, with no interpolation of ours in between, and are
+//! relative to the largest force of the exact answer.
+
+use crate::plan::{Case, Plan, corners_name, fixed_step};
+use duhem::closed_form::Reference;
+use integrate::{Outcome, Run, Trajectory};
+use record::{CaseRecord, CaseRow, History};
+use simulation::PrescribedMotion;
+
+/// How near to a kink counts as near, as a share of the period.
+pub const NEAR_A_KINK: f64 = 1.0 / 20.0;
+/// The smallest error that is told apart from none: digits do not exceed 16.
+const SMALLEST: f64 = 1e-16;
+/// The places a history is thinned to; each keeps its smallest and its largest step.
+const HISTORY: usize = 300;
+/// Points at which the exact answer's largest force is looked for, besides its corners.
+const PROBES: u32 = 1000;
+
+/// The exact force at `t`.
+pub(crate) fn exact_force(
+    motion: &PrescribedMotion,
+    reference: &dyn Reference,
+    t: f64,
+    x: &mut [f64],
+) -> f64 {
+    reference.state(t, x);
+    motion.force(t, x)
+}
+
+/// The largest absolute force of the exact answer over the span.
+pub(crate) fn largest_force(
+    motion: &PrescribedMotion,
+    reference: &dyn Reference,
+    (span, n): (f64, usize),
+) -> f64 {
+    let mut x = vec![0.0; n];
+    let grid = (0..=PROBES).map(|i| span * f64::from(i) / f64::from(PROBES));
+    grid.chain(motion.corners().iter().copied())
+        .map(|t| exact_force(motion, reference, t, &mut x).abs())
+        .fold(0.0, f64::max)
+}
+
+/// The record of one finished case.
+pub(crate) fn record(
+    plan: &Plan,
+    case: &Case,
+    run: &Run,
+    motion: &PrescribedMotion,
+    reference: &dyn Reference,
+) -> CaseRecord {
+    let study = &plan.studies[case.study];
+    let errors = errors(&run.trajectory, motion, reference, study.span);
+    let norms = Norms::of(&run.trajectory.t, &errors, motion, study.period);
+    let (status, detail, at) = match &run.outcome {
+        Outcome::Solved => ("solved".to_owned(), String::new(), study.span),
+        Outcome::Failed { at, why } => (why.name().to_owned(), detail(why), *at),
+    };
+    let row = CaseRow {
+        solver: case.solver.name.to_owned(),
+        library: case.solver.library.to_owned(),
+        control: if fixed_step(case.solver) { "step" } else { "rtol" }.to_owned(),
+        value: case.value,
+        corners: corners_name(case.corners).to_owned(),
+        status,
+        detail,
+        reached: at / study.span,
+        error_final: norms.last,
+        error_max: norms.max,
+        error_l2: norms.l2,
+        error_away: norms.away,
+        digits: norms.max.map(|e| -e.max(SMALLEST).log10()),
+        evaluations: run.work.evaluations,
+        jacobians: run.work.jacobians,
+        accepted: run.work.accepted,
+        rejected: run.work.rejected,
+        ..CaseRow::default()
+    };
+    CaseRecord { row, history: case.history.then(|| history(&run.trajectory, &errors)) }
+}
+
+/// The words of a failure beyond its name.
+fn detail(why: &integrate::Failure) -> String {
+    match why {
+        integrate::Failure::Panicked(words) | integrate::Failure::Stopped(words) => words.clone(),
+        _ => String::new(),
+    }
+}
+
+/// The relative error at every accepted step.
+fn errors(
+    trajectory: &Trajectory,
+    motion: &PrescribedMotion,
+    reference: &dyn Reference,
+    span: f64,
+) -> Vec<f64> {
+    let n = trajectory.n;
+    let scale = largest_force(motion, reference, (span, n));
+    let mut x = vec![0.0; n];
+    let mut error = |(i, t): (usize, &f64)| {
+        let ours = motion.force(*t, &trajectory.y[i * n..(i + 1) * n]);
+        (ours - exact_force(motion, reference, *t, &mut x)).abs() / scale
+    };
+    trajectory.t.iter().enumerate().map(&mut error).collect()
+}
+
+#[derive(Debug, Default)]
+struct Norms {
+    last: Option<f64>,
+    max: Option<f64>,
+    l2: Option<f64>,
+    away: Option<f64>,
+}
+
+impl Norms {
+    /// The norms of the errors at times `t`; none where there is nothing finite to take one of.
+    fn of(t: &[f64], errors: &[f64], motion: &PrescribedMotion, period: f64) -> Self {
+        let finite = |e: f64| e.is_finite().then_some(e);
+        let largest = |e: &mut dyn Iterator<Item = f64>| e.reduce(f64::max).and_then(finite);
+        let near = |t: f64| {
+            let next = motion.corners().partition_point(|corner| *corner < t);
+            let around = motion.corners()[next.saturating_sub(1)..].iter().take(2);
+            around.into_iter().any(|corner| (corner - t).abs() < NEAR_A_KINK * period)
+        };
+        let squares: f64 = (1..t.len())
+            .map(|i| (t[i] - t[i - 1]) * 0.5 * (errors[i].powi(2) + errors[i - 1].powi(2)))
+            .sum();
+        let length = t.last().unwrap_or(&0.0) - t.first().unwrap_or(&0.0);
+        Self {
+            last: errors.last().copied().and_then(finite),
+            max: largest(&mut errors.iter().copied()),
+            l2: finite((squares / length).sqrt()),
+            away: largest(&mut t.iter().zip(errors).filter(|(t, _)| !near(**t)).map(|(_, e)| *e)),
+        }
+    }
+}
+
+/// The steps thinned: from each of some places in time the smallest and the largest.
+fn history(trajectory: &Trajectory, errors: &[f64]) -> History {
+    let t = &trajectory.t;
+    let steps: Vec<usize> = (1..t.len()).filter(|i| errors[*i].is_finite()).collect();
+    let step = |i: usize| t[i] - t[i - 1];
+    let mut kept = Vec::new();
+    for place in steps.chunks(steps.len().div_ceil(HISTORY).max(1)) {
+        let by_step = |a: &&usize, b: &&usize| step(**a).total_cmp(&step(**b));
+        let ends = [place.iter().min_by(by_step), place.iter().max_by(by_step)];
+        kept.extend(ends.into_iter().flatten().copied());
+    }
+    kept.sort_unstable();
+    kept.dedup();
+    History {
+        t: kept.iter().map(|i| t[*i]).collect(),
+        step: kept.iter().map(|i| step(*i)).collect(),
+        value: kept.iter().map(|i| trajectory.y[i * trajectory.n]).collect(),
+        error: kept.iter().map(|i| errors[*i]).collect(),
+    }
+}

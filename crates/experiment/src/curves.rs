@@ -1,0 +1,161 @@
+//! The curves of figures: the exact answer's loops, and the steps that solvers took.
+
+use crate::{
+    plan::{Plan, Point, Study},
+    run::Finished,
+    spec::{FigureSpec, PanelSpec},
+};
+use duhem::FrictionModel;
+use record::{CurveRow, PanelRow};
+
+/// Points drawn on each arc between two corners.
+const PER_ARC: u32 = 100;
+/// Periods after which a loop is the limit cycle to more digits than a figure shows.
+const SETTLED: f64 = 40.0;
+
+/// The panels and curves of all figures that have panels.
+pub(crate) fn curves(
+    plan: &Plan,
+    finished: &[Finished],
+) -> Result<(Vec<PanelRow>, Vec<CurveRow>), String> {
+    let (mut panels, mut curves) = (Vec::new(), Vec::new());
+    for figure in &plan.figures {
+        for panel in &figure.panel {
+            panels.push(axes(figure, panel));
+            let drawn = match panel.show.as_str() {
+                "step-time" => steps(plan, figure, panel, finished)?,
+                _ => forces(plan, figure, panel)?,
+            };
+            for (series, points) in drawn {
+                let row = |(x, y)| CurveRow {
+                    figure: figure.name.clone(),
+                    panel: panel.title.clone(),
+                    series: series.clone(),
+                    x,
+                    y,
+                };
+                curves.extend(points.into_iter().map(row));
+            }
+        }
+    }
+    Ok((panels, curves))
+}
+
+type Series = Vec<(String, Vec<(f64, f64)>)>;
+
+fn axes(figure: &FigureSpec, panel: &PanelSpec) -> PanelRow {
+    PanelRow {
+        figure: figure.name.clone(),
+        panel: panel.title.clone(),
+        x: panel.x.clone(),
+        y: panel.y.clone(),
+        x_min: panel.x_range[0],
+        x_max: panel.x_range[1],
+        y_min: panel.y_range[0],
+        y_max: panel.y_range[1],
+        x_log: false,
+        y_log: panel.y_log,
+    }
+}
+
+fn shown<'a>(
+    plan: &'a Plan,
+    figure: &FigureSpec,
+    panel: &PanelSpec,
+) -> Result<(usize, &'a Study, Vec<&'a Point>), String> {
+    let name = panel.study.as_ref().or(figure.study.as_ref()).ok_or("a panel without a study")?;
+    let index = plan.studies.iter().position(|s| s.name == *name).ok_or("an unknown study")?;
+    let study = &plan.studies[index];
+    let select =
+        if figure.study.as_ref() == Some(name) { figure.select.clone() } else { <_>::default() };
+    let points = study.selected(&select).map_err(|c| c.found)?;
+    Ok((index, study, points))
+}
+
+fn forces(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series, String> {
+    let (_, study, points) = shown(plan, figure, panel)?;
+    points
+        .into_iter()
+        .map(|point| {
+            let span = if panel.from == "settled" {
+                (SETTLED * study.period, (SETTLED + 1.0) * study.period)
+            } else {
+                (0.0, study.span)
+            };
+            let path = path(study, point, span)?;
+            let xy =
+                |(u, u_dot, f)| if panel.show == "force-velocity" { (u_dot, f) } else { (u, f) };
+            Ok((pretty(&point.label, study), path.into_iter().map(xy).collect()))
+        })
+        .collect()
+}
+
+/// The exact answer's u, u̇ and F over a span, both sides of each corner.
+fn path(study: &Study, point: &Point, span: (f64, f64)) -> Result<Vec<(f64, f64, f64)>, String> {
+    let model = study.model_at(point)?;
+    let reference = match study.reference {
+        Some(r) => Some(
+            (r.build)(&point.parameters, &study.input, &study.initial, (0.0, span.1))
+                .map_err(|e| e.to_string())?,
+        ),
+        None if model.states() == 0 => None,
+        None => return Err(format!("study `{}` has no exact answer to draw", study.name)),
+    };
+    let mut bounds = vec![span.0];
+    bounds.extend(study.input.corners(span.0, span.1));
+    bounds.push(span.1);
+    let mut x = vec![0.0; model.states()];
+    let mut path = Vec::new();
+    for arc in bounds.windows(2) {
+        for i in 0..=PER_ARC {
+            // Denser towards the turns, where the force changes most for the time.
+            let share =
+                0.5 - 0.5 * (std::f64::consts::PI * f64::from(i) / f64::from(PER_ARC)).cos();
+            let t = arc[0] + share * (arc[1] - arc[0]);
+            if let Some(reference) = &reference {
+                reference.state(t, &mut x);
+            }
+            let (u, u_dot) = (study.input.u(t), study.input.u_dot_on(arc[0], arc[1], t));
+            path.push((u, u_dot, force(model.as_ref(), &x, u, inner(u_dot, arc, study))));
+        }
+    }
+    Ok(path)
+}
+
+/// At a turn the speed is zero and the force of a static model undefined: take the arc's own side.
+fn inner(u_dot: f64, arc: &[f64], study: &Study) -> f64 {
+    let middle = study.input.u_dot_on(arc[0], arc[1], 0.5 * (arc[0] + arc[1]));
+    if u_dot == 0.0 { f64::MIN_POSITIVE.copysign(middle) } else { u_dot }
+}
+
+fn force(model: &dyn FrictionModel, x: &[f64], u: f64, u_dot: f64) -> f64 {
+    let mut x_dot = vec![0.0; x.len()];
+    model.x_dot(x, u, u_dot, &mut x_dot);
+    model.force(x, &x_dot, u, u_dot)
+}
+
+fn steps(
+    plan: &Plan,
+    figure: &FigureSpec,
+    panel: &PanelSpec,
+    finished: &[Finished],
+) -> Result<Series, String> {
+    let (index, study, points) = shown(plan, figure, panel)?;
+    let mut series = Vec::new();
+    for (case, finished) in plan.cases.iter().zip(finished) {
+        let label = &study.points[case.point.min(study.points.len() - 1)].label;
+        let wanted = case.study == index
+            && points.iter().any(|p| p.label == *label)
+            && (figure.solvers.is_empty() || figure.solvers.iter().any(|s| s == case.solver.name));
+        if let (true, Some(history)) = (wanted, &finished.record.history) {
+            let xy = history.t.iter().copied().zip(history.step.iter().copied()).collect();
+            series.push((pretty(label, study), xy));
+        }
+    }
+    Ok(series)
+}
+
+/// A curve's label: the sweep's point, or the model's name without one.
+fn pretty(label: &str, study: &Study) -> String {
+    if label.is_empty() { study.model.name.to_owned() } else { label.to_owned() }
+}

@@ -1,0 +1,231 @@
+//! What changed between the committed tables and those of a new run, beyond each field's tolerance.
+//!
+//! Another processor gives other last bits (the C library's `exp` and `sin`, SIMD kernels), and a solver
+//! turns one bit into another step. So results are compared tightly, work loosely, names, statuses and
+//! verdicts exactly, and of rows that are irreproducible by nature only the status.
+
+use record::Summary;
+use serde::Serialize;
+use serde_json::{Map, Value};
+use std::fmt;
+
+/// One field that moved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drift {
+    /// The table's file.
+    pub table: &'static str,
+    /// The row, from 1, and what names it.
+    pub row: String,
+    /// The field; empty if rows are missing or new.
+    pub field: String,
+    /// What is committed.
+    pub committed: String,
+    /// What came out.
+    pub found: String,
+}
+
+impl fmt::Display for Drift {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { table, row, field, committed, found } = self;
+        write!(f, "{table}, {row}: {field}: committed {committed}, found {found}")
+    }
+}
+
+/// How a field is compared.
+enum Tolerance {
+    Exact,
+    /// Equal if |a − b| ≤ relative · max(|a|, |b|) + absolute.
+    Close {
+        relative: f64,
+        absolute: f64,
+    },
+    Ignored,
+}
+
+use Tolerance::{Close, Exact, Ignored};
+
+/// Errors, orders and other results of a reproducible case.
+const RESULT: Tolerance = Close { relative: 2e-3, absolute: 2e-12 };
+/// Step and evaluation counts: a last bit may cost or save a step or two.
+const WORK: Tolerance = Close { relative: 0.05, absolute: 20.0 };
+/// Closed forms.
+const TIGHT: Tolerance = Close { relative: 1e-9, absolute: 1e-12 };
+
+/// Every field that moved between two summaries of the same experiment.
+pub fn drift(committed: &Summary, found: &Summary) -> Vec<Drift> {
+    let mut moved = Vec::new();
+    compare("about.csv", (&committed.about, &found.about), |_, _| Exact, &mut moved);
+    compare("studies.csv", (&committed.studies, &found.studies), study, &mut moved);
+    compare("cases.csv", (&committed.cases, &found.cases), case, &mut moved);
+    compare("orders.csv", (&committed.orders, &found.orders), order, &mut moved);
+    compare("measures.csv", (&committed.measures, &found.measures), value, &mut moved);
+    compare("claims.csv", (&committed.claims, &found.claims), value, &mut moved);
+    compare("figures.csv", (&committed.figures, &found.figures), |_, _| TIGHT, &mut moved);
+    compare("panels.csv", (&committed.panels, &found.panels), |_, _| TIGHT, &mut moved);
+    // The steps that an adaptive solver took are as irreproducible as its counts.
+    let histories: Vec<&str> =
+        found.figures.iter().filter(|f| f.kind == "history").map(|f| f.figure.as_str()).collect();
+    let loops = |s: &Summary| {
+        let keep = |c: &&record::CurveRow| !histories.contains(&c.figure.as_str());
+        s.curves.iter().filter(keep).cloned().collect::<Vec<_>>()
+    };
+    compare("curves.csv", (&loops(committed), &loops(found)), |_, _| TIGHT, &mut moved);
+    moved
+}
+
+type Row = Map<String, Value>;
+
+fn irreproducible(row: &Row) -> bool {
+    row.get("irreproducible").and_then(Value::as_str).is_some_and(|why| !why.is_empty())
+}
+
+fn study(field: &str, _: &Row) -> Tolerance {
+    // A bound of rounding errors is itself made of last bits.
+    if field == "reference_error" { Ignored } else { TIGHT }
+}
+
+fn case(field: &str, row: &Row) -> Tolerance {
+    match field {
+        "reached" | "error_final" | "error_max" | "error_l2" | "error_away" | "digits"
+        | "evaluations" | "jacobians" | "accepted" | "rejected" | "detail"
+            if irreproducible(row) =>
+        {
+            Ignored
+        }
+        "error_final" | "error_max" | "error_l2" | "error_away" => RESULT,
+        // 2e-3 of an error is 1e-3 of a digit; at round-off a digit means nothing.
+        "digits" if row.get("error_max").and_then(Value::as_f64).is_some_and(|e| e < 1e-11) => {
+            Ignored
+        }
+        "digits" => Close { relative: 0.0, absolute: 1e-3 },
+        "reached" => Close { relative: 1e-3, absolute: 0.0 },
+        "evaluations" | "jacobians" | "accepted" | "rejected" => WORK,
+        _ => Exact,
+    }
+}
+
+fn order(field: &str, row: &Row) -> Tolerance {
+    match field {
+        "order" | "points" if irreproducible(row) => Ignored,
+        "order" => Close { relative: 0.0, absolute: 0.02 },
+        _ => Exact,
+    }
+}
+
+fn value(field: &str, _: &Row) -> Tolerance {
+    if field == "error" { Ignored } else { TIGHT }
+}
+
+fn compare<T: Serialize>(
+    table: &'static str,
+    (committed, found): (&[T], &[T]),
+    tolerance: impl Fn(&str, &Row) -> Tolerance,
+    moved: &mut Vec<Drift>,
+) {
+    if committed.len() != found.len() {
+        moved.push(Drift {
+            table,
+            row: "all rows".to_owned(),
+            field: "count".to_owned(),
+            committed: committed.len().to_string(),
+            found: found.len().to_string(),
+        });
+        return;
+    }
+    for (i, (old, new)) in committed.iter().zip(found).enumerate() {
+        let (old, new) = (fields(old), fields(new));
+        for (field, was) in &old {
+            let is = new.get(field).unwrap_or(&Value::Null);
+            if !equal(was, is, &tolerance(field, &new)) {
+                moved.push(Drift {
+                    table,
+                    row: format!("row {} ({})", i + 1, name(&new)),
+                    field: field.clone(),
+                    committed: was.to_string(),
+                    found: is.to_string(),
+                });
+            }
+        }
+    }
+}
+
+fn fields<T: Serialize>(row: &T) -> Row {
+    match serde_json::to_value(row) {
+        Ok(Value::Object(fields)) => fields,
+        _ => Row::new(),
+    }
+}
+
+/// What tells a reader which row is meant.
+fn name(row: &Row) -> String {
+    let keys =
+        ["id", "study", "point", "solver", "value", "corners", "figure", "panel", "series", "key"];
+    let words = keys.iter().filter_map(|key| row.get(*key)).map(|v| match v {
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    });
+    words.filter(|w| !w.is_empty()).collect::<Vec<_>>().join(", ")
+}
+
+fn equal(was: &Value, is: &Value, tolerance: &Tolerance) -> bool {
+    match (tolerance, was.as_f64(), is.as_f64()) {
+        (Ignored, ..) => true,
+        (Close { relative, absolute }, Some(a), Some(b)) => {
+            (a - b).abs() <= relative * a.abs().max(b.abs()) + absolute
+        }
+        _ => was == is,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::drift;
+    use record::{CaseRow, ClaimRow, Summary};
+
+    fn summary(row: CaseRow) -> Summary {
+        Summary { cases: vec![row], ..Summary::default() }
+    }
+
+    fn row() -> CaseRow {
+        CaseRow {
+            solver: "rk4".to_owned(),
+            status: "solved".to_owned(),
+            error_max: Some(1e-6),
+            accepted: 1000,
+            ..CaseRow::default()
+        }
+    }
+
+    #[test]
+    fn a_result_may_move_by_its_tolerance_and_no_further() {
+        let moved =
+            |error| drift(&summary(row()), &summary(CaseRow { error_max: Some(error), ..row() }));
+        assert!(moved(1.001e-6).is_empty());
+        let found = moved(1.01e-6);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].field, "error_max");
+    }
+
+    #[test]
+    fn of_an_irreproducible_row_only_the_status_counts() {
+        let marked = CaseRow { irreproducible: "chatter".to_owned(), ..row() };
+        let other = CaseRow { error_max: Some(0.5), accepted: 7, ..marked.clone() };
+        assert!(drift(&summary(marked.clone()), &summary(other.clone())).is_empty());
+        let failed = CaseRow { status: "diverged".to_owned(), ..other };
+        assert_eq!(drift(&summary(marked), &summary(failed)).len(), 1);
+    }
+
+    #[test]
+    fn a_verdict_is_compared_exactly() {
+        let claims = |verdict: &str| Summary {
+            claims: vec![ClaimRow { verdict: verdict.to_owned(), ..ClaimRow::default() }],
+            ..Summary::default()
+        };
+        assert_eq!(drift(&claims("reproduced"), &claims("contradicted")).len(), 1);
+    }
+
+    #[test]
+    fn a_missing_row_is_told() {
+        assert_eq!(drift(&summary(row()), &Summary::default()).len(), 1);
+    }
+}

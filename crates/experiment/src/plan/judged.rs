@@ -1,0 +1,220 @@
+//! What is measured and judged, as checked.
+
+use super::{Point, Study, input, study};
+use crate::{
+    checks::{CHECKS, Check},
+    error::{Complaint, one_of},
+    quantities::{QUANTITIES, Quantity},
+    spec::{ClaimSpec, IrreproducibleSpec, PrintedSpec, Spec},
+};
+use integrate::{Corners, Solver};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What a quantity or a check is taken of: a study at some points of its sweep.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    /// The study's index.
+    pub study: usize,
+    /// The points' indices; all of them if none was named.
+    pub points: Vec<usize>,
+    /// What a check is told to expect; empty if it needs no telling.
+    pub expect: String,
+}
+
+/// One quantity to measure.
+#[derive(Debug)]
+pub struct Measure {
+    /// Its id.
+    pub id: String,
+    /// Its unit.
+    pub unit: String,
+    /// What it is taken of.
+    pub subject: Subject,
+    /// How.
+    pub quantity: &'static Quantity,
+}
+
+/// What decides a claim.
+#[derive(Debug)]
+pub enum Decision {
+    /// A measure, by its index, against the printed number.
+    Measure(usize),
+    /// A check of a sentence.
+    Check(&'static Check, Subject),
+}
+
+/// One sentence of the paper to judge.
+#[derive(Debug)]
+pub struct Claim {
+    /// As written.
+    pub written: ClaimSpec,
+    /// The printed number.
+    pub printed: Option<PrintedSpec>,
+    /// What decides it.
+    pub decision: Decision,
+}
+
+/// Rows whose numbers are not reproducible by nature.
+#[derive(Debug)]
+pub struct Irreproducible {
+    /// A short name, for the rows.
+    pub name: String,
+    /// The reason.
+    pub why: String,
+    study: usize,
+    points: BTreeSet<String>,
+    solvers: Vec<&'static Solver>,
+    corners: Vec<Corners>,
+}
+
+impl Irreproducible {
+    /// Whether a row is meant.
+    pub fn covers(
+        &self,
+        (study, point): (usize, &Point),
+        solver: &Solver,
+        corners: Corners,
+    ) -> bool {
+        self.study == study
+            && self.points.contains(&point.label)
+            && (self.solvers.is_empty() || self.solvers.iter().any(|s| s.name == solver.name))
+            && (self.corners.is_empty() || self.corners.contains(&corners))
+    }
+}
+
+pub(super) struct Judged {
+    pub(super) measures: Vec<Measure>,
+    pub(super) claims: Vec<Claim>,
+    pub(super) irreproducible: Vec<Irreproducible>,
+}
+
+pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint> {
+    let mut measures: Vec<Measure> = Vec::new();
+    for (i, written) in spec.measure.iter().enumerate() {
+        let under = |c: Complaint| c.under(&format!("measure[{i}]"));
+        if !super::plain(&written.id) || measures.iter().any(|m| m.id == written.id) {
+            return Err(under(Complaint::new(
+                "id",
+                format!("`{}`", written.id),
+                "a plain id of its own",
+            )));
+        }
+        let mut what = written.what.clone();
+        what.insert("study".to_owned(), written.study.clone().into());
+        let name = input::text(&written.what, "quantity").map_err(|c| under(c.under("what")))?;
+        let quantity = QUANTITIES.iter().find(|q| q.name == name).ok_or_else(|| {
+            let known = QUANTITIES.iter().map(|q| q.name);
+            under(Complaint::new("what.quantity", format!("`{name}`"), one_of(name, known)))
+        })?;
+        let subject = subject(&what, "quantity", studies).map_err(|c| under(c.under("what")))?;
+        if subject.points.len() != 1 {
+            let found = format!("{} points of the sweep", subject.points.len());
+            return Err(under(Complaint::new(
+                "what",
+                found,
+                "one: name a value of each swept parameter",
+            )));
+        }
+        let (id, unit) = (written.id.clone(), written.unit.clone());
+        measures.push(Measure { id, unit, subject, quantity });
+    }
+    let mut claims = Vec::new();
+    for (i, written) in spec.claim.iter().enumerate() {
+        for id in crate::judge::placeholders(&written.why) {
+            known(spec, id).map_err(|c| c.under(&format!("claim[{i}].why")))?;
+        }
+        let claim = claim(written, &measures, studies);
+        claims.push(claim.map_err(|c| c.under(&format!("claim[{i}]")))?);
+    }
+    let mut seen = BTreeSet::new();
+    if let Some(i) = spec.claim.iter().position(|c| !super::plain(&c.id) || !seen.insert(&c.id)) {
+        let found = format!("`{}`", spec.claim[i].id);
+        return Err(Complaint::new(format!("claim[{i}].id"), found, "a plain id of its own"));
+    }
+    let mut rules = Vec::new();
+    for (i, written) in spec.irreproducible.iter().enumerate() {
+        let rule = irreproducible(written, studies);
+        rules.push(rule.map_err(|c| c.under(&format!("irreproducible[{i}]")))?);
+    }
+    Ok(Judged { measures, claims, irreproducible: rules })
+}
+
+/// Whether a text may ask for this measure's value.
+pub(super) fn known(spec: &Spec, id: &str) -> Result<(), Complaint> {
+    let ids = || spec.measure.iter().map(|m| m.id.as_str());
+    let found = ids().any(|known| known == id);
+    found.then_some(()).ok_or_else(|| Complaint::new("", format!("{{{id}}}"), one_of(id, ids())))
+}
+
+fn find_study(name: &str, studies: &[Study]) -> Result<usize, Complaint> {
+    studies.iter().position(|s| s.name == name).ok_or_else(|| {
+        let known = studies.iter().map(|s| s.name.as_str());
+        Complaint::new("study", format!("`{name}`"), one_of(name, known))
+    })
+}
+
+/// The study and the points that a table names: every other key is a swept parameter, with one value or a list.
+fn subject(table: &toml::Table, other: &str, studies: &[Study]) -> Result<Subject, Complaint> {
+    let index = find_study(input::text(table, "study")?, studies)?;
+    let expect = if table.contains_key("expect") { input::text(table, "expect")? } else { "" };
+    let mut select = BTreeMap::new();
+    for (key, value) in
+        table.iter().filter(|(key, _)| !["study", "expect", other].contains(&key.as_str()))
+    {
+        let one = |v| input::as_number(v).map(|number| vec![number]);
+        let list = value.as_array().map(|l| l.iter().map(input::as_number).collect());
+        let numbers: Option<Vec<f64>> = list.unwrap_or_else(|| one(value));
+        let numbers = numbers.ok_or_else(|| {
+            Complaint::new(key, value.to_string(), "a number of the sweep, or a list")
+        })?;
+        select.insert(key.clone(), numbers);
+    }
+    let study = &studies[index];
+    let chosen = study.selected(&select)?;
+    let place = |label: &str| study.points.iter().position(|p| p.label == label);
+    let points = chosen.iter().filter_map(|point| place(&point.label)).collect();
+    Ok(Subject { study: index, points, expect: expect.to_owned() })
+}
+
+fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result<Claim, Complaint> {
+    let ids = || measures.iter().map(|m| m.id.as_str());
+    let find = |key: &str, id: &str| {
+        measures
+            .iter()
+            .position(|m| m.id == id)
+            .ok_or_else(|| Complaint::new(key, format!("`{id}`"), one_of(id, ids())))
+    };
+    let decision = match (&written.measure, &written.check) {
+        (Some(id), None) => Decision::Measure(find("measure", id)?),
+        (None, Some(table)) => {
+            let name = input::text(table, "name").map_err(|c| c.under("check"))?;
+            let known = CHECKS.iter().map(|c| c.name);
+            let check = CHECKS.iter().find(|c| c.name == name).ok_or_else(|| {
+                Complaint::new("check.name", format!("`{name}`"), one_of(name, known))
+            })?;
+            Decision::Check(check, subject(table, "name", studies).map_err(|c| c.under("check"))?)
+        }
+        _ => return Err(Complaint::new("", "both or neither", "a `measure` or a `check`")),
+    };
+    if matches!(decision, Decision::Measure(_)) != written.printed.is_some() {
+        let expected = "a printed number with a `measure`, none with a `check`";
+        return Err(Complaint::new("printed", "this", expected));
+    }
+    Ok(Claim { written: written.clone(), printed: written.printed.clone(), decision })
+}
+
+fn irreproducible(
+    spec: &IrreproducibleSpec,
+    studies: &[Study],
+) -> Result<Irreproducible, Complaint> {
+    let index = find_study(&spec.study, studies)?;
+    let points = studies[index].selected(&spec.select).map_err(|c| c.under("select"))?;
+    Ok(Irreproducible {
+        name: spec.name.clone(),
+        why: spec.why.trim().to_owned(),
+        study: index,
+        points: points.into_iter().map(|p| p.label.clone()).collect(),
+        solvers: study::solvers(&spec.solvers)?,
+        corners: study::corners(&spec.corners)?,
+    })
+}

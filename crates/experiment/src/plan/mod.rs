@@ -1,0 +1,261 @@
+//! An experiment as checked: every name resolved, every number in its range, every case listed.
+
+mod input;
+mod judged;
+mod study;
+
+pub use judged::{Claim, Decision, Irreproducible, Measure, Subject};
+pub use study::{Point, Study};
+
+use crate::{
+    ExperimentError,
+    error::{Complaint, one_of},
+    spec::{FigureSpec, Spec, Written},
+};
+use integrate::{Corners, Solver};
+use record::RecordError;
+use sha2::{Digest, Sha256};
+use std::{collections::BTreeSet, fmt::Write, fs, path::Path};
+
+/// The most evaluations a case may use if the experiment does not say otherwise.
+const BUDGET: f64 = 5e6;
+/// The most cases an experiment may have: more is a slip of the pen.
+const MOST_CASES: usize = 100_000;
+
+/// An experiment as checked.
+#[derive(Debug)]
+pub struct Plan {
+    /// Its name: that of its file.
+    pub name: String,
+    /// The SHA-256 of its TOML.
+    pub spec_hash: String,
+    /// The title.
+    pub title: String,
+    /// Which figures and equations of the paper it covers.
+    pub paper: String,
+    /// What it is about.
+    pub text: String,
+    /// The studies.
+    pub studies: Vec<Study>,
+    /// Every case, in the order of the tables.
+    pub cases: Vec<Case>,
+    /// The figures, their studies and solvers resolved.
+    pub figures: Vec<FigureSpec>,
+    /// The measures.
+    pub measures: Vec<Measure>,
+    /// The claims.
+    pub claims: Vec<Claim>,
+    /// The rows whose numbers are not reproducible by nature.
+    pub irreproducible: Vec<Irreproducible>,
+}
+
+/// One cell of model × input × solver × control × corners.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// The study's index.
+    pub study: usize,
+    /// The point's index in its sweep.
+    pub point: usize,
+    /// The solver.
+    pub solver: &'static Solver,
+    /// Steps per period, or the relative tolerance.
+    pub value: f64,
+    /// Whether the solver restarts at corners.
+    pub corners: Corners,
+    /// Whether its steps are kept for a figure.
+    pub history: bool,
+}
+
+/// Whether a solver takes a fixed step.
+pub fn fixed_step(solver: &Solver) -> bool {
+    matches!(solver.order, integrate::Order::Fixed(_))
+}
+
+/// `restart` or `ignore`.
+pub fn corners_name(corners: Corners) -> &'static str {
+    match corners {
+        Corners::Restart => "restart",
+        Corners::Ignore => "ignore",
+    }
+}
+
+impl Plan {
+    /// Reads and checks the experiment at `path`; `kinds` are the kinds of figure that can be drawn.
+    pub fn read(path: &Path, kinds: &[&str]) -> Result<Self, ExperimentError> {
+        let disk = |source| RecordError::Disk { path: path.into(), what: "cannot read", source };
+        let bytes = fs::read(path).map_err(disk)?;
+        let text = String::from_utf8(bytes).map_err(|e| ExperimentError::Spec {
+            path: path.to_path_buf(),
+            line: 1,
+            key: "the file".to_owned(),
+            found: format!("a byte that is no text, at {}", e.utf8_error().valid_up_to()),
+            expected: "UTF-8".to_owned(),
+        })?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Self::from_text(&name, path, &text, kinds)
+    }
+
+    fn from_text(
+        name: &str,
+        path: &Path,
+        text: &str,
+        kinds: &[&str],
+    ) -> Result<Self, ExperimentError> {
+        let written = Written::parse(path, text)?;
+        check(name, text, &written.spec, kinds).map_err(|complaint| written.error(complaint))
+    }
+
+    /// The same plan with only the first two steps and tolerances of every study.
+    #[must_use]
+    pub fn quick(mut self) -> Self {
+        for study in &mut self.studies {
+            study.steps.truncate(2);
+            study.rtol.truncate(2);
+        }
+        self.cases = cases(&self.studies);
+        self
+    }
+}
+
+fn check(name: &str, text: &str, spec: &Spec, kinds: &[&str]) -> Result<Plan, Complaint> {
+    unique("study", spec.study.iter().map(|s| &s.name))?;
+    unique("figure", spec.figure.iter().map(|s| &s.name))?;
+    if spec.study.is_empty() {
+        return Err(Complaint::new("study", "none", "at least one [[study]]"));
+    }
+    let budget = spec.budget.unwrap_or(BUDGET);
+    if !(1.0..=1e12).contains(&budget) {
+        return Err(Complaint::new("budget", budget.to_string(), "from 1 to 1e12 evaluations"));
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
+    let budget = budget as u64;
+    let mut studies = Vec::new();
+    for (i, written) in spec.study.iter().enumerate() {
+        let study = Study::check(written, budget).map_err(|c| c.under(&format!("study[{i}]")))?;
+        studies.push(study);
+    }
+    let cases = cases(&studies);
+    if cases.len() > MOST_CASES {
+        let found = format!("{} cases", cases.len());
+        return Err(Complaint::new("study", found, format!("at most {MOST_CASES}")));
+    }
+    let judged = judged::check(spec, &studies)?;
+    Ok(Plan {
+        name: name.to_owned(),
+        spec_hash: sha256(text),
+        title: spec.title.clone(),
+        paper: spec.paper.clone(),
+        text: spec.text.clone(),
+        figures: figures(spec, &studies, kinds)?,
+        studies,
+        cases,
+        measures: judged.measures,
+        claims: judged.claims,
+        irreproducible: judged.irreproducible,
+    })
+}
+
+fn sha256(text: &str) -> String {
+    Sha256::digest(text).iter().fold(String::new(), |mut out, byte| {
+        let _ = write!(out, "{byte:02x}");
+        out
+    })
+}
+
+fn unique<'a>(table: &str, names: impl Iterator<Item = &'a String>) -> Result<(), Complaint> {
+    let mut seen = BTreeSet::new();
+    for (i, name) in names.enumerate() {
+        if !plain(name) {
+            let expected = "letters, digits, `-`, `_`, `.`, `=`, `*`";
+            return Err(Complaint::new(
+                format!("{table}[{i}].name"),
+                format!("`{name}`"),
+                expected,
+            ));
+        }
+        // A figure's data stand beside the tables, under its own name.
+        if table == "figure" && record::Summary::FILES.contains(&format!("{name}.csv").as_str()) {
+            let found = format!("`{name}`, the name of a table");
+            return Err(Complaint::new(format!("figure[{i}].name"), found, "another name"));
+        }
+        if !seen.insert(name) {
+            let found = format!("`{name}` a second time");
+            return Err(Complaint::new(format!("{table}[{i}].name"), found, "a name of its own"));
+        }
+    }
+    Ok(())
+}
+
+/// Names become file names and anchors.
+fn plain(name: &str) -> bool {
+    let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.=*".contains(c);
+    !name.is_empty() && name.chars().all(allowed) && !name.starts_with('.')
+}
+
+/// The cases of all studies, in the order of the tables.
+fn cases(studies: &[Study]) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (s, study) in studies.iter().enumerate() {
+        for point in 0..study.points.len() {
+            for solver in &study.solvers {
+                let values = if fixed_step(solver) { &study.steps } else { &study.rtol };
+                for value in values {
+                    for corners in &study.corners {
+                        let history = study.keeps(solver, *value, *corners);
+                        let (value, corners) = (*value, *corners);
+                        cases.push(Case { study: s, point, solver, value, corners, history });
+                    }
+                }
+            }
+        }
+    }
+    cases
+}
+
+/// What a panel may show.
+pub(crate) const SHOWS: [&str; 3] = ["force-displacement", "force-velocity", "step-time"];
+
+fn figures(spec: &Spec, studies: &[Study], kinds: &[&str]) -> Result<Vec<FigureSpec>, Complaint> {
+    let study = |name: &String, key: String| {
+        let known = studies.iter().map(|s| s.name.as_str());
+        studies
+            .iter()
+            .find(|s| s.name == *name)
+            .ok_or_else(|| Complaint::new(key, format!("`{name}`"), one_of(name, known)))
+    };
+    for (i, figure) in spec.figure.iter().enumerate() {
+        let key = |k: &str| format!("figure[{i}].{k}");
+        for id in crate::judge::placeholders(&figure.caption) {
+            judged::known(spec, id).map_err(|c| c.under(&key("caption")))?;
+        }
+        if !kinds.contains(&figure.kind.as_str()) {
+            let expected = one_of(&figure.kind, kinds.iter().copied());
+            return Err(Complaint::new(key("kind"), format!("`{}`", figure.kind), expected));
+        }
+        if let Some(name) = &figure.study {
+            study(name, key("study"))?
+                .selected(&figure.select)
+                .map_err(|c| c.under(&key("select")))?;
+        }
+        study::solvers(&figure.solvers).map_err(|c| c.under(&format!("figure[{i}]")))?;
+        for (p, panel) in figure.panel.iter().enumerate() {
+            let key = |k: &str| format!("figure[{i}].panel[{p}].{k}");
+            if let Some(name) = &panel.study {
+                study(name, key("study"))?;
+            } else if figure.study.is_none() {
+                return Err(Complaint::new(key("study"), "none", "a study, here or in the figure"));
+            }
+            if !SHOWS.contains(&panel.show.as_str()) {
+                let expected = one_of(&panel.show, SHOWS);
+                return Err(Complaint::new(key("show"), format!("`{}`", panel.show), expected));
+            }
+            if panel.show != "step-time"
+                && !["settled", "from-start"].contains(&panel.from.as_str())
+            {
+                let expected = one_of(&panel.from, ["settled", "from-start"]);
+                return Err(Complaint::new(key("from"), format!("`{}`", panel.from), expected));
+            }
+        }
+    }
+    Ok(spec.figure.clone())
+}

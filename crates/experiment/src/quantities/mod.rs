@@ -1,0 +1,55 @@
+//! What can be measured: one entry for each quantity, with the two ways it is obtained.
+
+mod dahl;
+
+use crate::plan::{Plan, Subject};
+
+/// A measured value with an honest bound of its error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// The value.
+    pub value: f64,
+    /// How far the second way is from it, and no less than a few units of rounding.
+    pub error: f64,
+}
+
+impl Measured {
+    /// A value and its second parent.
+    pub fn of(value: f64, second: f64) -> Self {
+        /// The rounding of a dozen operations.
+        const ROUNDING: f64 = 16.0 * f64::EPSILON;
+        Self { value, error: (value - second).abs().max(ROUNDING * value.abs()) }
+    }
+}
+
+/// One quantity that an experiment may ask for.
+#[derive(Debug)]
+pub struct Quantity {
+    /// Its name in the TOML.
+    pub name: &'static str,
+    /// What it is, in words.
+    pub what: &'static str,
+    /// How the value is obtained.
+    pub method: &'static str,
+    /// The second way, which bounds the error.
+    pub second: &'static str,
+    /// Where the code is.
+    pub code: &'static str,
+    /// Takes it.
+    pub measure: fn(&Plan, &Subject) -> Result<Measured, String>,
+}
+
+/// All quantities.
+pub const QUANTITIES: &[Quantity] = &[
+    dahl::FORCE_AT_TURN,
+    dahl::LOOP_AREA,
+    dahl::FORCE_RISING_AT_ZERO,
+    dahl::LAG,
+    dahl::SATURATION_TRAVEL,
+    dahl::FIRST_PERIOD_WORK,
+    dahl::CONTRACTION,
+    dahl::ALPHA_PLUS,
+    dahl::F_MINUS_AT_ZERO,
+    dahl::F_MINUS_AT_ZERO_AS_PRINTED,
+    dahl::SPEED_AT_ZERO_FORCE,
+];

@@ -1,0 +1,225 @@
+//! Every case run or found in the store, in parallel, none able to stop the others.
+
+use crate::{
+    ExperimentError, compare,
+    plan::{Case, Plan, corners_name, fixed_step},
+};
+use integrate::{Control, Limits};
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+use record::{CaseRecord, CaseRow, Found, Key, Store};
+use simulation::PrescribedMotion;
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicBool, AtomicUsize, Ordering},
+        mpsc::{self, RecvTimeoutError},
+    },
+    thread,
+    time::Duration,
+};
+
+/// How to run.
+#[derive(Debug)]
+pub struct Options<'a> {
+    /// Where finished cases are kept.
+    pub store: Store,
+    /// Whether to ignore what is kept.
+    pub fresh: bool,
+    /// How many cases at once.
+    pub threads: usize,
+    /// How long a case may go without an answer. Its limit is the budget of evaluations; this is for code
+    /// that never calls back.
+    pub watchdog: Duration,
+    /// Set from outside to stop after the cases in flight.
+    pub stop: &'a AtomicBool,
+}
+
+/// Why a case ran or did not.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Why {
+    /// Its record was in the store.
+    Reused,
+    /// There was no record under its key.
+    New,
+    /// There was one, and it was damaged: how.
+    Damaged(String),
+    /// Records were to be ignored.
+    Fresh,
+}
+
+/// One finished case.
+#[derive(Debug)]
+pub struct Finished {
+    /// Its record.
+    pub record: CaseRecord,
+    /// Its key in the store.
+    pub key: Key,
+    /// Why it ran or did not.
+    pub why: Why,
+}
+
+/// How far the run is.
+#[derive(Debug, Clone, Copy)]
+pub struct Progress {
+    /// Cases finished.
+    pub done: usize,
+    /// How many of these were reused.
+    pub reused: usize,
+    /// Cases planned.
+    pub total: usize,
+}
+
+/// The status of a case that the watchdog gave up: never stored.
+pub const WATCHDOG: &str = "watchdog";
+
+/// Runs the plan's cases, in the order of the plan; `tell` hears of each that is finished.
+pub fn run(
+    plan: &Arc<Plan>,
+    options: &Options,
+    tell: &(dyn Fn(Progress) + Sync),
+) -> Result<Vec<Finished>, ExperimentError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads)
+        .build()
+        .map_err(|e| ExperimentError::Environment(e.to_string()))?;
+    let total = plan.cases.len();
+    let (done, reused) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let one = |index: usize| {
+        if options.stop.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+        let finished = finish(plan, index, options)?;
+        reused.fetch_add(usize::from(finished.why == Why::Reused), Ordering::Relaxed);
+        let done = 1 + done.fetch_add(1, Ordering::Relaxed);
+        tell(Progress { done, reused: reused.load(Ordering::Relaxed), total });
+        Ok::<_, ExperimentError>(Some(finished))
+    };
+    // With many short cases and a few long ones, small pieces keep all threads busy to the end.
+    let finished: Vec<Option<Finished>> = pool.install(|| {
+        (0..total).into_par_iter().with_max_len(1).map(one).collect::<Result<_, _>>()
+    })?;
+    let finished: Vec<Finished> = finished.into_iter().flatten().collect();
+    if finished.len() < total {
+        return Err(ExperimentError::Interrupted { done: finished.len(), total });
+    }
+    Ok(finished)
+}
+
+fn finish(plan: &Arc<Plan>, index: usize, options: &Options) -> Result<Finished, ExperimentError> {
+    let case = &plan.cases[index];
+    let key = key(plan, case);
+    let why = if options.fresh {
+        Why::Fresh
+    } else {
+        match options.store.read(&key)? {
+            Found::Record(record) => {
+                return Ok(Finished { record: named(plan, case, *record), key, why: Why::Reused });
+            }
+            Found::Nothing => Why::New,
+            Found::Damaged(how) => Why::Damaged(how),
+        }
+    };
+    let record = watched(plan, index, options.watchdog)?;
+    if record.row.status != WATCHDOG {
+        options.store.write(&key, &record)?;
+    }
+    Ok(Finished { record: named(plan, case, record), key, why })
+}
+
+/// The hash of all that determines the case's numbers; its names in the experiment are not among it.
+fn key(plan: &Plan, case: &Case) -> Key {
+    let study = &plan.studies[case.study];
+    let point = &study.points[case.point];
+    let versions = format!("{:?}", integrate::versions());
+    let reference = study.reference.map_or("", |r| r.name);
+    Key::of(&[
+        env!("DUHEM_SOURCES"),
+        &versions,
+        study.model.name,
+        &format!("{:?}", point.parameters),
+        &format!("{:?}", study.input),
+        &format!("{:?} {:?} {:?}", study.initial, study.span, study.period),
+        reference,
+        case.solver.name,
+        &format!("{:?} {} {}", case.value, corners_name(case.corners), case.history),
+        &study.budget.to_string(),
+    ])
+}
+
+/// The record with its names in this experiment.
+fn named(plan: &Plan, case: &Case, mut record: CaseRecord) -> CaseRecord {
+    let study = &plan.studies[case.study];
+    let point = &study.points[case.point];
+    let rule =
+        |r: &&crate::plan::Irreproducible| r.covers((case.study, point), case.solver, case.corners);
+    record.row.study.clone_from(&study.name);
+    record.row.point.clone_from(&point.label);
+    record.row.irreproducible =
+        plan.irreproducible.iter().find(rule).map_or(String::new(), |r| r.name.clone());
+    record
+}
+
+/// Runs the case on a thread of its own and waits for it no longer than `watchdog`.
+/// A thread cannot be killed: one that gives no answer is left behind and ends with the program.
+fn watched(
+    plan: &Arc<Plan>,
+    index: usize,
+    watchdog: Duration,
+) -> Result<CaseRecord, ExperimentError> {
+    let (send, receive) = mpsc::channel();
+    let theirs = Arc::clone(plan);
+    let handle = thread::Builder::new()
+        .spawn(move || {
+            // Nobody listens any more if the watchdog was faster.
+            let _ = send.send(compute(&theirs, &theirs.cases[index]));
+        })
+        .map_err(|e| ExperimentError::Environment(e.to_string()))?;
+    match receive.recv_timeout(watchdog) {
+        Ok(record) => record.map_err(ExperimentError::Bug),
+        Err(RecvTimeoutError::Timeout) => Ok(given_up(&plan.cases[index], watchdog)),
+        Err(RecvTimeoutError::Disconnected) => {
+            let panic = handle.join().err();
+            let words = panic.as_ref().and_then(|p| p.downcast_ref::<String>()).cloned();
+            let case = &plan.cases[index];
+            let words = words.unwrap_or_else(|| "no words".to_owned());
+            Err(ExperimentError::Bug(format!(
+                "case {index} ({}) panicked: {words}",
+                case.solver.name
+            )))
+        }
+    }
+}
+
+fn given_up(case: &Case, watchdog: Duration) -> CaseRecord {
+    let row = CaseRow {
+        solver: case.solver.name.to_owned(),
+        library: case.solver.library.to_owned(),
+        control: if fixed_step(case.solver) { "step" } else { "rtol" }.to_owned(),
+        value: case.value,
+        corners: corners_name(case.corners).to_owned(),
+        status: WATCHDOG.to_owned(),
+        detail: format!("no answer within {} s", watchdog.as_secs_f64()),
+        ..CaseRow::default()
+    };
+    CaseRecord { row, history: None }
+}
+
+fn compute(plan: &Plan, case: &Case) -> Result<CaseRecord, String> {
+    let study = &plan.studies[case.study];
+    let point = &study.points[case.point];
+    let reference = study.reference.ok_or("a case without a reference")?;
+    let reference =
+        (reference.build)(&point.parameters, &study.input, &study.initial, (0.0, study.span))
+            .map_err(|e| e.to_string())?;
+    let model = study.model_at(point)?;
+    let motion = PrescribedMotion::new(model, study.input.clone(), (0.0, study.span));
+    let problem = motion.problem(study.initial.clone());
+    let control = if fixed_step(case.solver) {
+        Control::Step(study.period / case.value)
+    } else {
+        Control::Tolerance { rtol: case.value }
+    };
+    let limits = Limits { evaluations: study.budget };
+    let run = integrate::solve(case.solver, &problem, &control, case.corners, &limits);
+    Ok(compare::record(plan, case, &run, &motion, reference.as_ref()))
+}

@@ -1,0 +1,307 @@
+//! An experiment as written: the TOML's keys and nothing more. What is checked is a [`crate::Plan`].
+
+use crate::{
+    ExperimentError,
+    error::{Complaint, one_of},
+};
+use serde::Deserialize;
+use std::{collections::BTreeMap, path::Path};
+use toml::{Spanned, de::DeTable, de::DeValue};
+
+/// The largest TOML that is read [bytes]; an experiment is a page or two.
+const LARGEST: usize = 1 << 20;
+
+/// An experiment as written.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Spec {
+    /// The title.
+    pub title: String,
+    /// Which figures and equations of the paper it covers.
+    pub paper: String,
+    /// What the experiment is about, for the report.
+    pub text: String,
+    /// The most evaluations a case may use; 5e6 if not given.
+    pub budget: Option<f64>,
+    /// The studies.
+    #[serde(default)]
+    pub study: Vec<StudySpec>,
+    /// The figures.
+    #[serde(default)]
+    pub figure: Vec<FigureSpec>,
+    /// The quantities to measure.
+    #[serde(default)]
+    pub measure: Vec<MeasureSpec>,
+    /// The claims to judge.
+    #[serde(default)]
+    pub claim: Vec<ClaimSpec>,
+    /// The rows whose numbers are not reproducible by nature.
+    #[serde(default)]
+    pub irreproducible: Vec<IrreproducibleSpec>,
+}
+
+/// One study: model × input × solvers × controls.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StudySpec {
+    /// Its name.
+    pub name: String,
+    /// The physics, for the report.
+    #[serde(default)]
+    pub text: String,
+    /// The model's name and parameters.
+    pub model: toml::Table,
+    /// The input's shape and parameters.
+    pub input: toml::Table,
+    /// Parameters that take several values.
+    #[serde(default)]
+    pub sweep: BTreeMap<String, Vec<f64>>,
+    /// The time span, in periods of the input.
+    pub periods: f64,
+    /// The internal state at t = 0; zero if not given.
+    pub initial: Option<Vec<f64>>,
+    /// Solvers and named sets of them.
+    #[serde(default)]
+    pub solvers: Vec<String>,
+    /// Steps per period, for the methods of fixed step.
+    #[serde(default)]
+    pub steps: Vec<f64>,
+    /// Relative tolerances, for the adaptive methods.
+    #[serde(default)]
+    pub rtol: Vec<f64>,
+    /// `restart`, `ignore` or both.
+    #[serde(default)]
+    pub corners: Vec<String>,
+    /// The exact answer errors are judged by.
+    pub reference: Option<String>,
+    /// Cases whose steps are kept for a figure.
+    #[serde(default)]
+    pub history: Vec<HistorySpec>,
+}
+
+/// A case whose steps are kept for a figure, at every point of the sweep.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HistorySpec {
+    /// The solver.
+    pub solver: String,
+    /// Its relative tolerance, one of the study's.
+    pub rtol: f64,
+    /// `restart` or `ignore`.
+    pub corners: String,
+}
+
+/// One figure.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FigureSpec {
+    /// Its name, and its file's.
+    pub name: String,
+    /// The kind.
+    pub kind: String,
+    /// The study whose cases it shows.
+    pub study: Option<String>,
+    /// The title.
+    pub title: String,
+    /// For a reader who cannot see it.
+    pub description: String,
+    /// What to see in it.
+    pub caption: String,
+    /// Values of the sweep to show; all if not given.
+    #[serde(default)]
+    pub select: BTreeMap<String, Vec<f64>>,
+    /// Solvers to show; all if not given.
+    #[serde(default)]
+    pub solvers: Vec<String>,
+    /// The one control value to show, for kinds that need one.
+    pub value: Option<f64>,
+    /// The panels, for figures of curves.
+    #[serde(default)]
+    pub panel: Vec<PanelSpec>,
+}
+
+/// One panel of a figure of curves.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PanelSpec {
+    /// Its title.
+    pub title: String,
+    /// The study whose curves it shows; the figure's if not given.
+    pub study: Option<String>,
+    /// What is drawn: `force-displacement`, `force-velocity` or `step-time`.
+    pub show: String,
+    /// `settled` (the limit cycle) or `from-start`; only for forces.
+    #[serde(default)]
+    pub from: String,
+    /// Label of the horizontal axis.
+    pub x: String,
+    /// Label of the vertical axis.
+    pub y: String,
+    /// The ends of the horizontal axis.
+    pub x_range: [f64; 2],
+    /// The ends of the vertical axis.
+    pub y_range: [f64; 2],
+    /// Whether the vertical axis is logarithmic.
+    #[serde(default)]
+    pub y_log: bool,
+}
+
+/// One quantity to measure.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeasureSpec {
+    /// Its id.
+    pub id: String,
+    /// Its unit.
+    pub unit: String,
+    /// The study it is taken in.
+    pub study: String,
+    /// `quantity`, and values for swept parameters.
+    pub what: toml::Table,
+}
+
+/// One sentence of the paper.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClaimSpec {
+    /// Its id.
+    pub id: String,
+    /// Where the paper says it.
+    pub place: String,
+    /// What it says.
+    pub says: String,
+    /// The printed number, if there is one.
+    pub printed: Option<PrintedSpec>,
+    /// The measure that decides a number.
+    pub measure: Option<String>,
+    /// The check that decides a sentence: `name`, `study`, and its parameters.
+    pub check: Option<toml::Table>,
+    /// Why the outcome depends on something the paper does not print.
+    pub under_specified: Option<String>,
+    /// Only a shape or an impression is claimed.
+    #[serde(default)]
+    pub qualitative: bool,
+    /// What was found and what probably happened; `{id}` stands for a measure's value.
+    pub why: String,
+    /// The figure that shows it.
+    #[serde(default)]
+    pub figure: String,
+}
+
+/// A number as printed.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PrintedSpec {
+    /// The number.
+    pub value: f64,
+    /// How many significant digits are printed.
+    pub digits: u64,
+    /// Its unit.
+    pub unit: String,
+}
+
+/// Rows whose numbers are not reproducible by nature: those that fit every key given.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IrreproducibleSpec {
+    /// A short name, for the rows.
+    pub name: String,
+    /// The study.
+    pub study: String,
+    /// Values of the sweep; all if not given.
+    #[serde(default)]
+    pub select: BTreeMap<String, Vec<f64>>,
+    /// Solvers and sets; all if not given.
+    #[serde(default)]
+    pub solvers: Vec<String>,
+    /// `restart`, `ignore`; both if not given.
+    #[serde(default)]
+    pub corners: Vec<String>,
+    /// The reason, for the report.
+    pub why: String,
+}
+
+/// A spec with the text it was read from, so that a complaint finds its line.
+#[derive(Debug)]
+pub(crate) struct Written<'a> {
+    path: &'a Path,
+    text: &'a str,
+    tree: Spanned<DeTable<'a>>,
+    /// The keys.
+    pub(crate) spec: Spec,
+}
+
+impl<'a> Written<'a> {
+    /// Parses `text`, the content of `path`.
+    pub(crate) fn parse(path: &'a Path, text: &'a str) -> Result<Self, ExperimentError> {
+        if text.len() > LARGEST {
+            return Err(at(
+                path,
+                1,
+                Complaint::new(
+                    "the file",
+                    format!("{} bytes", text.len()),
+                    format!("at most {LARGEST} bytes"),
+                ),
+            ));
+        }
+        let tree = DeTable::parse(text).map_err(|e| syntax(path, text, &e))?;
+        let spec = toml::from_str(text).map_err(|e| syntax(path, text, &e))?;
+        Ok(Self { path, text, tree, spec })
+    }
+
+    /// The complaint with its file and line.
+    pub(crate) fn error(&self, complaint: Complaint) -> ExperimentError {
+        at(self.path, self.line(&complaint.key), complaint)
+    }
+
+    /// The line of `key`, as `study[0].model.gamma`, or of the innermost part of it that is written.
+    fn line(&self, key: &str) -> usize {
+        let mut table = Some(self.tree.get_ref());
+        let mut start = 0;
+        for step in key.split('.') {
+            let (name, index) = match step.split_once('[') {
+                Some((name, rest)) => (name, rest.trim_end_matches(']').parse::<usize>().ok()),
+                None => (step, None),
+            };
+            let Some((written, value)) = table.and_then(|t| t.get_key_value(name)) else { break };
+            start = written.span().start;
+            let value = match (value.get_ref(), index) {
+                (DeValue::Array(items), Some(i)) if i < items.len() => {
+                    start = items[i].span().start;
+                    items[i].get_ref()
+                }
+                (other, _) => other,
+            };
+            table = value.as_table();
+        }
+        line_at(self.text, start)
+    }
+}
+
+fn line_at(text: &str, offset: usize) -> usize {
+    1 + text.as_bytes().iter().take(offset).filter(|b| **b == b'\n').count()
+}
+
+fn at(path: &Path, line: usize, complaint: Complaint) -> ExperimentError {
+    let Complaint { key, found, expected } = complaint;
+    ExperimentError::Spec { path: path.to_path_buf(), line, key, found, expected }
+}
+
+/// A parser's error in our words, with the near miss named where it lists what it expected.
+fn syntax(path: &Path, text: &str, error: &toml::de::Error) -> ExperimentError {
+    let span = error.span().unwrap_or(0..0);
+    let line = line_at(text, span.start);
+    let message = error.message().lines().collect::<Vec<_>>().join("; ");
+    if let Some((_, rest)) = message.split_once("unknown field `")
+        && let Some((field, list)) = rest.split_once('`')
+    {
+        let known: Vec<&str> = list.split('`').skip(1).step_by(2).collect();
+        let complaint = Complaint::new(field, "an unknown key", one_of(field, known));
+        return at(path, line, complaint);
+    }
+    let written = text.get(span).unwrap_or("").lines().next().unwrap_or("");
+    let short: String = written.chars().take(40).collect();
+    let found = if short.is_empty() { "this".to_owned() } else { format!("`{short}`") };
+    at(path, line, Complaint::new("TOML", found, message))
+}

@@ -1,0 +1,107 @@
+//! The tables of an experiment, from its plan and its finished cases.
+
+use crate::{
+    ExperimentError, Finished, Plan,
+    compare::largest_force,
+    curves, judge, orders,
+    plan::{Point, Study},
+    spec::FigureSpec,
+};
+use record::{AboutRow, CaseRow, FigureRow, MeasureRow, StudyRow, Summary};
+use simulation::PrescribedMotion;
+
+/// All tables of the experiment.
+pub fn summary(plan: &Plan, finished: &[Finished]) -> Result<Summary, ExperimentError> {
+    let cases: Vec<CaseRow> = finished.iter().map(|f| f.record.row.clone()).collect();
+    let measures = judge::measures(plan).map_err(ExperimentError::Bug)?;
+    let claims = judge::claims(plan, &measures).map_err(ExperimentError::Bug)?;
+    let (panels, curves) = curves::curves(plan, finished).map_err(ExperimentError::Bug)?;
+    let studies = plan.studies.iter().map(study_row).collect::<Result<_, _>>();
+    Ok(Summary {
+        name: plan.name.clone(),
+        about: about(plan),
+        studies: studies.map_err(ExperimentError::Bug)?,
+        orders: orders::orders(plan, &cases),
+        cases,
+        figures: plan.figures.iter().map(|f| figure_row(plan, f, &measures)).collect(),
+        measures,
+        claims,
+        panels,
+        curves,
+    })
+}
+
+fn about(plan: &Plan) -> Vec<AboutRow> {
+    let row = |key: &str, value: &str| AboutRow { key: key.to_owned(), value: value.to_owned() };
+    let mut rows = vec![
+        row("title", &plan.title),
+        row("paper", &plan.paper),
+        row("text", &folded(&plan.text)),
+        row("command", &format!("cargo xtask reproduce {}", plan.name)),
+        row("spec sha256", &plan.spec_hash),
+        row("format", &record::FORMAT.to_string()),
+    ];
+    for (name, version) in integrate::versions() {
+        rows.push(row(&format!("version {name}"), version));
+    }
+    for rule in &plan.irreproducible {
+        rows.push(row(&format!("irreproducible {}", rule.name), &folded(&rule.why)));
+    }
+    rows
+}
+
+/// A text with single line breaks folded and paragraphs kept.
+fn folded(text: &str) -> String {
+    let words = |p: &str| p.split_whitespace().collect::<Vec<_>>().join(" ");
+    text.trim().split("\n\n").map(words).collect::<Vec<_>>().join("\n\n")
+}
+
+fn study_row(study: &Study) -> Result<StudyRow, String> {
+    let mut worst: Option<f64> = None;
+    for point in &study.points {
+        if let Some(error) = reference_error(study, point)? {
+            worst = Some(worst.unwrap_or(0.0).max(error));
+        }
+    }
+    Ok(StudyRow {
+        study: study.name.clone(),
+        model: study.model_text.clone(),
+        input: study.input_text.clone(),
+        text: folded(&study.text),
+        reference: study.reference.map_or("", |r| r.name).to_owned(),
+        period: study.period,
+        span: study.span,
+        budget: study.budget,
+        reference_error: worst,
+    })
+}
+
+/// The reference's own bound, relative to its largest force.
+fn reference_error(study: &Study, point: &Point) -> Result<Option<f64>, String> {
+    let Some(entry) = study.reference else { return Ok(None) };
+    let span = (0.0, study.span);
+    let reference = (entry.build)(&point.parameters, &study.input, &study.initial, span)
+        .map_err(|e| e.to_string())?;
+    let motion = PrescribedMotion::new(study.model_at(point)?, study.input.clone(), span);
+    let scale = largest_force(&motion, reference.as_ref(), (study.span, study.initial.len()));
+    Ok(Some(reference.error_bound() / scale))
+}
+
+fn figure_row(plan: &Plan, figure: &FigureSpec, measures: &[MeasureRow]) -> FigureRow {
+    let study = plan.studies.iter().find(|s| Some(&s.name) == figure.study.as_ref());
+    let points = study.filter(|_| !figure.select.is_empty()).map_or(String::new(), |study| {
+        let chosen = study.selected(&figure.select).unwrap_or_default();
+        chosen.iter().map(|p| p.label.as_str()).collect::<Vec<_>>().join(";")
+    });
+    FigureRow {
+        figure: figure.name.clone(),
+        kind: figure.kind.clone(),
+        study: figure.study.clone().unwrap_or_default(),
+        title: figure.title.clone(),
+        description: folded(&figure.description),
+        caption: judge::fill(&figure.caption, measures),
+        points,
+        solvers: figure.solvers.join(";"),
+        value: figure.value,
+    }
+}

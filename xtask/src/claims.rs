@@ -1,0 +1,62 @@
+//! The ledger, from the committed records.
+
+use crate::{
+    exit::{Exit, Failure},
+    output, root, screen,
+};
+use record::Summary;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Prints the ledger of all experiments that have been run.
+pub(crate) fn claims(root: &Path, as_json: bool) -> Result<Exit, Failure> {
+    let summaries = committed(root, &root.join("reports"))?;
+    print(&summaries, as_json);
+    Ok(Exit::Done)
+}
+
+/// The summaries in `reports` of all experiments that have one, in the order of their names.
+pub(crate) fn committed(root: &Path, reports: &Path) -> Result<Vec<Summary>, Failure> {
+    let mut summaries = Vec::new();
+    for name in root::experiments(root)? {
+        let folder = reports.join(&name);
+        if folder.join(Summary::FILES[0]).is_file() {
+            summaries.push(Summary::read(&folder)?);
+        }
+    }
+    Ok(summaries)
+}
+
+/// Prints claims and measures as JSON, or the claims as one screen.
+pub(crate) fn print(summaries: &[Summary], as_json: bool) {
+    if as_json {
+        output::line(&format!("{:#}", ledger(summaries)));
+    } else {
+        for line in screen::claims(summaries) {
+            output::line(&line);
+        }
+    }
+}
+
+fn ledger(summaries: &[Summary]) -> Value {
+    let claims = summaries.iter().flat_map(|s| &s.claims).map(|c| {
+        let printed = c.printed.map(|value| json!({ "value": value, "unit": c.unit }));
+        let ours = c.ours.map(|value| json!({ "value": value, "error": c.error, "unit": c.unit }));
+        json!({
+            "id": c.id, "place": c.place, "says": c.says, "printed": printed, "ours": ours,
+            "holds": c.holds, "verdict": c.verdict, "why": c.why, "how": c.how,
+        })
+    });
+    let claims: Vec<Value> = claims.collect();
+    let measures: Vec<Value> = summaries
+        .iter()
+        .flat_map(|s| &s.measures)
+        .map(|m| {
+            json!({
+                "id": m.id, "value": m.value, "error": m.error, "unit": m.unit, "method": m.method,
+                "second_way": m.second,
+            })
+        })
+        .collect();
+    json!({ "format": record::FORMAT, "claims": claims, "measures": measures })
+}
