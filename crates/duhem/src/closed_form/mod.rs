@@ -1,6 +1,10 @@
 //! Exact answers, so that error is measured against truth and not against a tight run of the same code.
 
 pub mod dahl;
+pub mod lugre;
+pub mod maxwell_slip;
+pub mod second_way;
+pub mod semilinear;
 
 use crate::{Input, ParameterError, Parameters};
 
@@ -37,6 +41,14 @@ pub enum ReferenceError {
         /// The model's number of states.
         expected: usize,
     },
+    /// There is no closed form under this input.
+    #[error("velocity varies between {start} s and {end} s: expected an input of constant speeds")]
+    Velocity {
+        /// Start of the first arc of varying velocity [s].
+        start: f64,
+        /// Its end [s].
+        end: f64,
+    },
     /// The time span is empty or not finite.
     #[error("span = [{start}, {end}] s: expected a finite start before a finite end")]
     Span {
@@ -48,8 +60,11 @@ pub enum ReferenceError {
 }
 
 /// The closed forms.
-pub const REFERENCES: &[ReferenceEntry] =
-    &[ReferenceEntry { name: "dahl", build: dahl::Trajectory::build }];
+pub const REFERENCES: &[ReferenceEntry] = &[
+    ReferenceEntry { name: "dahl", build: dahl::Trajectory::build },
+    ReferenceEntry { name: "lugre", build: lugre::Trajectory::build },
+    ReferenceEntry { name: "maxwell-slip", build: maxwell_slip::Trajectory::build },
+];
 
 /// Refuses an initial state or a span no answer can start from.
 pub(crate) fn check(
@@ -101,6 +116,29 @@ impl Arcs {
         let k = inner.partition_point(|corner| *corner <= t);
         let (so_far, whole) = (self.input.u(t) - self.u[k], self.travel(k));
         (k, if so_far * whole < 0.0 { 0.0 } else { so_far })
+    }
+
+    /// Displacement at the start of arc `k` [m].
+    pub(crate) fn u(&self, k: usize) -> f64 {
+        self.u[k]
+    }
+
+    /// Displacement at time `t` [m].
+    pub(crate) fn u_at(&self, t: f64) -> f64 {
+        self.input.u(t)
+    }
+
+    /// Start and end of arc `k` [s].
+    pub(crate) fn ends(&self, k: usize) -> (f64, f64) {
+        (self.times[k], self.times[k + 1])
+    }
+
+    /// The constant velocity of arc `k` [m/s], if it is constant.
+    pub(crate) fn constant_velocity(&self, k: usize) -> Option<f64> {
+        let (from, to) = (self.times[k], self.times[k + 1]);
+        let at = |part: f64| self.input.u_dot_on(from, to, from + part * (to - from));
+        let (start, middle, end) = (at(0.0), at(0.5), at(1.0));
+        (start == middle && middle == end).then_some(middle)
     }
 
     /// A bound on the rounding of u(t) over the span [m]: of u itself and of its phase.
