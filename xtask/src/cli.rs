@@ -66,6 +66,7 @@ pub(crate) enum New {
 }
 
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own on the command line")]
 pub(crate) struct ReproduceArgs {
     /// The experiments; all if none is named.
     pub(crate) names: Vec<String>,

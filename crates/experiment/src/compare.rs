@@ -13,8 +13,8 @@ use simulation::PrescribedMotion;
 pub const NEAR_A_KINK: f64 = 1.0 / 20.0;
 /// The smallest error that is told apart from none: digits do not exceed 16.
 const SMALLEST: f64 = 1e-16;
-/// The places a history is thinned to; each keeps its smallest and its largest step.
-const HISTORY: usize = 300;
+/// The stretches of time a history is thinned to; each keeps its smallest and its largest step.
+const HISTORY: f64 = 300.0;
 /// Points at which the exact answer's largest force is looked for, besides its corners.
 const PROBES: u32 = 1000;
 
@@ -136,13 +136,14 @@ impl Norms {
     }
 }
 
-/// The steps thinned: from each of some places in time the smallest and the largest.
+/// The steps thinned: from each of some stretches of time the smallest and the largest.
 fn history(trajectory: &Trajectory, errors: &[f64]) -> History {
     let t = &trajectory.t;
+    let stretch = (t.last().unwrap_or(&0.0) - t.first().unwrap_or(&0.0)) / HISTORY;
     let steps: Vec<usize> = (1..t.len()).filter(|i| errors[*i].is_finite()).collect();
     let step = |i: usize| t[i] - t[i - 1];
     let mut kept = Vec::new();
-    for place in steps.chunks(steps.len().div_ceil(HISTORY).max(1)) {
+    for place in steps.chunk_by(|a, b| (t[*a] / stretch).floor() == (t[*b] / stretch).floor()) {
         let by_step = |a: &&usize, b: &&usize| step(**a).total_cmp(&step(**b));
         let ends = [place.iter().min_by(by_step), place.iter().max_by(by_step)];
         kept.extend(ends.into_iter().flatten().copied());

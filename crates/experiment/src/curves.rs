@@ -1,7 +1,7 @@
 //! The curves of figures: the exact answer's loops, and the steps that solvers took.
 
 use crate::{
-    plan::{Plan, Point, Study},
+    plan::{Plan, Point, Study, solver_names},
     run::Finished,
     spec::{FigureSpec, PanelSpec},
 };
@@ -141,12 +141,12 @@ fn steps(
     finished: &[Finished],
 ) -> Result<Series, String> {
     let (index, study, points) = shown(plan, figure, panel)?;
-    let mut series = Vec::new();
+    let (mut series, solvers) = (Vec::new(), solver_names(&figure.solvers));
     for (case, finished) in plan.cases.iter().zip(finished) {
         let label = &study.points[case.point.min(study.points.len() - 1)].label;
         let wanted = case.study == index
             && points.iter().any(|p| p.label == *label)
-            && (figure.solvers.is_empty() || figure.solvers.iter().any(|s| s == case.solver.name));
+            && (solvers.is_empty() || solvers.contains(&case.solver.name));
         if let (true, Some(history)) = (wanted, &finished.record.history) {
             let xy = history.t.iter().copied().zip(history.step.iter().copied()).collect();
             series.push((pretty(label, study), xy));

@@ -66,7 +66,7 @@ fn judge(plan: &Plan, claim: &Claim, measures: &[MeasureRow]) -> Result<ClaimRow
                 (check.run)(plan, subject).map_err(|e| format!("claim `{}`: {e}", written.id))?;
             row.ours = found.value;
             row.error = found.error;
-            found.unit.clone_into(&mut row.unit);
+            row.unit = found.unit.to_owned();
             row.holds = Some(found.holds);
             check.code.clone_into(&mut row.code);
             row.how = found.how;

@@ -71,7 +71,7 @@ mod tests {
     #[test]
     fn the_slope_of_a_power_law_is_its_exponent() {
         let points: Vec<(f64, f64)> =
-            (1..6).map(|i| f64::from(i)).map(|x| (x.ln(), (3.0 * x.powf(2.5)).ln())).collect();
+            (1..6).map(f64::from).map(|x| (x.ln(), (3.0 * x.powf(2.5)).ln())).collect();
         let found = slope(&points).unwrap();
         assert!((found - 2.5).abs() < 1e-12, "slope {found}");
     }

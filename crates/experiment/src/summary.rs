@@ -4,7 +4,7 @@ use crate::{
     ExperimentError, Finished, Plan,
     compare::largest_force,
     curves, judge, orders,
-    plan::{Point, Study},
+    plan::{Point, Study, solver_names},
     spec::FigureSpec,
 };
 use record::{AboutRow, CaseRow, FigureRow, MeasureRow, StudyRow, Summary};
@@ -101,7 +101,7 @@ fn figure_row(plan: &Plan, figure: &FigureSpec, measures: &[MeasureRow]) -> Figu
         description: folded(&figure.description),
         caption: judge::fill(&figure.caption, measures),
         points,
-        solvers: figure.solvers.join(";"),
+        solvers: solver_names(&figure.solvers).join(";"),
         value: figure.value,
     }
 }

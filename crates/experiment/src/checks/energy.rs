@@ -31,7 +31,7 @@ fn turning(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
     let found = match orientation(&u, &f) {
         Orientation::Clockwise => "clockwise",
         Orientation::Counterclockwise => "counterclockwise",
-        other => return Err(format!("the loop has no orientation: {other:?}")),
+        Orientation::None => return Err("the loop encloses nothing".to_owned()),
     };
     // The area that a counterclockwise path encloses is positive: minus ∮F du.
     let signed: f64 = (1..u.len()).map(|i| 0.5 * (f[i] + f[i - 1]) * (u[i] - u[i - 1])).sum();

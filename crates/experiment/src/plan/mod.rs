@@ -105,12 +105,19 @@ impl Plan {
         check(name, text, &written.spec, kinds).map_err(|complaint| written.error(complaint))
     }
 
-    /// The same plan with only the first two steps and tolerances of every study.
+    /// The same plan with two steps and tolerances in every study: the first, and the one that a figure
+    /// shows or else the second.
     #[must_use]
     pub fn quick(mut self) -> Self {
         for study in &mut self.studies {
-            study.steps.truncate(2);
-            study.rtol.truncate(2);
+            let shown = self.figures.iter().filter(|f| f.study.as_ref() == Some(&study.name));
+            let shown: Vec<f64> = shown.filter_map(|f| f.value).collect();
+            for values in [&mut study.steps, &mut study.rtol] {
+                if let Some(wanted) = values.iter().skip(1).position(|v| shown.contains(v)) {
+                    values.swap(1, wanted + 1);
+                }
+                values.truncate(2);
+            }
         }
         self.cases = cases(&self.studies);
         self
@@ -212,6 +219,11 @@ fn cases(studies: &[Study]) -> Vec<Case> {
     cases
 }
 
+/// The names that these names and sets mean; none for those that a plan has already refused.
+pub(crate) fn solver_names(names: &[String]) -> Vec<&'static str> {
+    study::solvers(names).unwrap_or_default().iter().map(|s| s.name).collect()
+}
+
 /// What a panel may show.
 pub(crate) const SHOWS: [&str; 3] = ["force-displacement", "force-velocity", "step-time"];
 
@@ -236,6 +248,13 @@ fn figures(spec: &Spec, studies: &[Study], kinds: &[&str]) -> Result<Vec<FigureS
             study(name, key("study"))?
                 .selected(&figure.select)
                 .map_err(|c| c.under(&key("select")))?;
+        }
+        if let (Some(value), Some(name)) = (figure.value, &figure.study) {
+            let study = study(name, key("study"))?;
+            if !study.steps.iter().chain(&study.rtol).any(|v| *v == value) {
+                let expected = format!("a step or a tolerance of study `{name}`");
+                return Err(Complaint::new(key("value"), format!("{value:e}"), expected));
+            }
         }
         study::solvers(&figure.solvers).map_err(|c| c.under(&format!("figure[{i}]")))?;
         for (p, panel) in figure.panel.iter().enumerate() {
