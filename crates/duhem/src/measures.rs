@@ -17,7 +17,7 @@ pub struct Estimate {
 pub enum Orientation {
     /// ∮F du > 0: F is larger on the way up (in u) than on the way down. Energy is lost.
     ///
-    /// The paper (p. 97) says counterclockwise. So it is with F horizontal and u vertical, which is how
+    /// The paper (p. 96) says counterclockwise. So it is with F horizontal and u vertical, which is how
     /// Figures 13 and 14 plot a drive, but none of its plots of friction.
     Clockwise,
     /// ∮F du < 0.

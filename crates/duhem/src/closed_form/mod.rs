@@ -141,11 +141,15 @@ impl Arcs {
         (start == middle && middle == end).then_some(middle)
     }
 
-    /// A bound on the rounding of u(t) over the span [m]: of u itself and of its phase.
+    /// A bound on the rounding of u(t) over the span [m]: of u itself, of its phase, and of the joints
+    /// of a sequence.
     pub(crate) fn rounding(&self) -> f64 {
         let size = self.u.iter().fold(0.0_f64, |size, u| size.max(u.abs()));
         let end = self.times[self.len()].abs().max(self.times[0].abs());
         let phase = self.input.period().map_or(0.0, |period| std::f64::consts::TAU * end / period);
-        2.0 * f64::EPSILON * size * (1.0 + phase)
+        let inner = &self.times[1..self.len()];
+        let joint = |t: &f64| (self.input.u(*t) - self.input.u(t.next_down())).abs();
+        let joints = inner.iter().map(joint).fold(0.0, f64::max);
+        joints + 2.0 * f64::EPSILON * size * (1.0 + phase)
     }
 }

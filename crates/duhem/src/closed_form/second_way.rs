@@ -156,7 +156,7 @@ fn integral(f: impl Fn(f64) -> f64, end: f64) -> f64 {
         refine(|t| {
             let y = FRAC_PI_2 * t.sinh();
             let x = end / (1.0 + (-2.0 * y).exp());
-            f(x) * 0.5 * end * FRAC_PI_2 * t.cosh() / y.cosh().powi(2)
+            f(x) * 0.5 * end * FRAC_PI_2 * t.cosh() / (y.cosh() * y.cosh())
         })
     }
 }

@@ -107,7 +107,7 @@ impl Semilinear {
         Ok(Self { plus, minus, c: DVector::from_column_slice(c), d })
     }
 
-    /// The Dahl model with γ = 1, whatever γ is in `dahl`: A± = ∓σ/F_C, E± = σ (p. 94).
+    /// The Dahl model with γ = 1, whatever γ is in `dahl`: A± = ∓σ/F_C, E± = σ (p. 93).
     pub fn of_dahl(dahl: &Dahl) -> Result<Self, SemilinearError> {
         let rate = dahl.sigma / dahl.f_c;
         let plus = Branch { a: &[-rate], b: &[0.0], e: &[dahl.sigma] };

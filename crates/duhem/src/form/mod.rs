@@ -15,6 +15,17 @@ pub enum DuhemType {
     Semilinear,
 }
 
+/// The smoothness column of Table 1 (p. 92).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Continuity {
+    /// f, or the output of a model without a state, jumps.
+    Discontinuous,
+    /// f is continuous in x, with an infinite slope somewhere.
+    NotLipschitz,
+    /// f is Lipschitz in x on bounded sets.
+    Lipschitz,
+}
+
 /// A friction model as the product ẋ = f(x, u) g(u̇) of an n × r matrix and a vector of r.
 pub trait DuhemForm: FrictionModel {
     /// The number r of columns of f.
@@ -38,6 +49,9 @@ pub trait DuhemForm: FrictionModel {
 
     /// The model's type in Table 1.
     fn duhem_type(&self) -> DuhemType;
+
+    /// The model's smoothness in Table 1.
+    fn continuity(&self) -> Continuity;
 
     /// Whether stretching time stretches the response and nothing else: Proposition 1 (p. 92).
     fn rate_independent(&self) -> bool {

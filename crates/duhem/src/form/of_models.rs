@@ -1,6 +1,6 @@
 //! The friction models as Duhem models: the recasts of the paper and the rows of Table 1.
 
-use super::{DuhemForm, DuhemType, negative_part, positive_part};
+use super::{Continuity, DuhemForm, DuhemType, negative_part, positive_part};
 use crate::{Coulomb, Dahl, LuGre, MaxwellSlip, models::step};
 
 /// g = [u̇₊ u̇₋]ᵀ, so h₊ = [1 0]ᵀ and h₋ = [0 1]ᵀ.
@@ -25,6 +25,10 @@ impl DuhemForm for Coulomb {
 
     fn directions(&self) -> Option<(Vec<f64>, Vec<f64>)> {
         Some((Vec::new(), Vec::new()))
+    }
+
+    fn continuity(&self) -> Continuity {
+        Continuity::Discontinuous
     }
 
     fn duhem_type(&self) -> DuhemType {
@@ -63,6 +67,14 @@ impl DuhemForm for Dahl {
         split_directions()
     }
 
+    fn continuity(&self) -> Continuity {
+        match self.gamma {
+            0.0 => Continuity::Discontinuous,
+            gamma if gamma < 1.0 => Continuity::NotLipschitz,
+            _ => Continuity::Lipschitz,
+        }
+    }
+
     fn duhem_type(&self) -> DuhemType {
         if self.gamma == 1.0 { DuhemType::Semilinear } else { DuhemType::Generalized }
     }
@@ -96,6 +108,10 @@ impl DuhemForm for LuGre {
         is_dahl.then(|| (vec![1.0, -1.0 / r], vec![1.0, 1.0 / r]))
     }
 
+    fn continuity(&self) -> Continuity {
+        Continuity::Lipschitz
+    }
+
     fn duhem_type(&self) -> DuhemType {
         DuhemType::Generalized
     }
@@ -120,6 +136,10 @@ impl DuhemForm for MaxwellSlip {
 
     fn directions(&self) -> Option<(Vec<f64>, Vec<f64>)> {
         split_directions()
+    }
+
+    fn continuity(&self) -> Continuity {
+        Continuity::Discontinuous
     }
 
     fn duhem_type(&self) -> DuhemType {

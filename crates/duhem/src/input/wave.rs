@@ -32,7 +32,10 @@ impl Wave {
         match self.kind {
             Kind::Sine => self.amplitude * (self.omega * t).sin(),
             // a (cos ωt − 1) without its cancellation near ωt = 0.
-            Kind::CosineOffset => -2.0 * self.amplitude * (0.5 * self.omega * t).sin().powi(2),
+            Kind::CosineOffset => {
+                let half = (0.5 * self.omega * t).sin();
+                -2.0 * self.amplitude * half * half
+            }
             Kind::Triangle => {
                 let s = self.phase(t);
                 self.amplitude * if s < 0.5 { 4.0 * s - 1.0 } else { 3.0 - 4.0 * s }

@@ -1,4 +1,4 @@
-//! The Dahl model, equations 11 to 15 (pp. 92–94).
+//! The Dahl model, equations 11 to 15 (pp. 92–93).
 
 use super::FrictionModel;
 use crate::{DuhemForm, ParameterError, Parameters, sgn};

@@ -1,4 +1,4 @@
-//! The LuGre model, equations 18 to 21 (pp. 94–95).
+//! The LuGre model, equations 18 to 21 (pp. 93–94).
 
 use super::FrictionModel;
 use crate::{DuhemForm, ParameterError, Parameters, sgn};

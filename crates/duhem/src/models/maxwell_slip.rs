@@ -1,4 +1,4 @@
-//! The Maxwell-slip model, equations 24 to 26 (pp. 95–96).
+//! The Maxwell-slip model, equations 24 to 26 (pp. 94–95).
 
 use super::FrictionModel;
 use crate::{

@@ -1,4 +1,4 @@
-//! Corollary 1 (p. 94): the loop of γ = 1 in the paper's own words.
+//! Corollary 1 (p. 93): the loop of γ = 1 in the paper's own words.
 
 use crate::Dahl;
 

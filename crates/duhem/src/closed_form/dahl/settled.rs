@@ -1,6 +1,6 @@
 //! The settled loop.
 
-use super::{advance, travel, work};
+use super::{advance, travel, work::loop_area};
 use crate::Dahl;
 use std::f64::consts::LN_2;
 
@@ -37,9 +37,12 @@ impl Loop {
         }
     }
 
-    /// ∮F du [J]: the energy lost in one cycle, both ways being equal by symmetry.
+    /// ∮F du [J]: the energy lost in one cycle.
+    ///
+    /// It is positive and the loop clockwise with u horizontal, F being larger on the way up than on
+    /// the way down. The paper (p. 96) has it counterclockwise, which needs the axes exchanged.
     pub fn area(&self) -> f64 {
-        2.0 * work(&self.dahl, -self.force_at_u_max, self.u_max - self.u_min)
+        loop_area(&self.dahl, self.force_at_u_max, self.u_max - self.u_min)
     }
 
     /// The displacement [m] from a turning point to F = 0, a magnitude.
@@ -51,24 +54,25 @@ impl Loop {
 /// a of the closed loop for p = 1 − γ and the way βσ/F_C, sought as y with a = tanh(y/2): there the
 /// equation is well-conditioned from small loops to a = 1.
 fn half_height(p: f64, way: f64) -> f64 {
-    if !(p > 0.0 && way >= 2.0_f64.powf(p) / p) {
-        let (mut low, mut high) = (0.0, 1.0);
-        while way_to(p, high) < way && high < 1e3 {
-            (low, high) = (high, 2.0 * high);
+    if p > 0.0 && way >= 2.0_f64.powf(p) / p {
+        return 1.0;
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    // At y = 1024 the height is 1 to the last digit.
+    while way_to(p, high) < way && high < 1024.0 {
+        (low, high) = (high, 2.0 * high);
+    }
+    loop {
+        let y = low + 0.5 * (high - low);
+        if y <= low || y >= high {
+            return (0.5 * y).tanh();
         }
-        loop {
-            let y = low + 0.5 * (high - low);
-            if y <= low || y >= high {
-                return (0.5 * y).tanh();
-            }
-            if way_to(p, y) < way {
-                low = y;
-            } else {
-                high = y;
-            }
+        if way_to(p, y) < way {
+            low = y;
+        } else {
+            high = y;
         }
     }
-    1.0
 }
 
 /// ((1+a)^p − (1−a)^p)/p at a = tanh(y/2), where ln((1+a)/(1−a)) = y.

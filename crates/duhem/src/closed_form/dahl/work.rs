@@ -17,10 +17,18 @@ pub fn work(dahl: &Dahl, force: f64, delta_u: f64) -> f64 {
     let log_ratio = decay(dahl, w0.abs(), delta_u.abs());
     let unit = dahl.f_c * dahl.f_c / dahl.sigma;
     let f1 = f0 - w0 * log_ratio.exp_m1();
-    if f0.abs().max(f1.abs()) * dahl.gamma.max(1.0) < 0.125 {
-        return unit * small(dahl.gamma, f0, f1);
-    }
-    unit * (kappa - w0.signum() * power_integral(2.0 - dahl.gamma, w0.abs(), log_ratio))
+    small(dahl.gamma, f0, f1).map_or_else(
+        || unit * (kappa - w0.signum() * power_integral(2.0 - dahl.gamma, w0.abs(), log_ratio)),
+        |work| unit * work,
+    )
+}
+
+/// ∮F du [J] of the loop with ±`force` at its turns and `beta` [m] between them: both ways lose the
+/// same. A small loop is of third order in its height, and is summed from there.
+pub(super) fn loop_area(dahl: &Dahl, force: f64, beta: f64) -> f64 {
+    let (a, unit) = (force / dahl.f_c, dahl.f_c * dahl.f_c / dahl.sigma);
+    let one_way = small(dahl.gamma, -a, a).map(|work| unit * work);
+    2.0 * one_way.unwrap_or_else(|| work(dahl, -force, beta))
 }
 
 /// ∫F du [J] of the exact trajectory from `f0` [N] over a span of time [s].
@@ -34,9 +42,12 @@ pub fn work_over(dahl: &Dahl, input: &Input, f0: f64, span: (f64, f64)) -> f64 {
     sum
 }
 
-/// ∫ f (1 − f)^(−γ) df from f₀ to f₁ by the binomial series, where the closed form would cancel:
-/// the area of a small loop is of third order in its height.
-fn small(gamma: f64, f0: f64, f1: f64) -> f64 {
+/// ∫ f (1 − f)^(−γ) df from f₀ to f₁ by the binomial series, for forces far below F_C, where the closed
+/// form would cancel; nothing for larger ones.
+fn small(gamma: f64, f0: f64, f1: f64) -> Option<f64> {
+    if f0.abs().max(f1.abs()) * gamma.max(1.0) >= 0.125 {
+        return None;
+    }
     let (mut coefficient, mut n, mut sum) = (1.0, 0.0, 0.0);
     let (mut low, mut high) = (f0 * f0, f1 * f1);
     let size = low.max(high);
@@ -46,5 +57,5 @@ fn small(gamma: f64, f0: f64, f1: f64) -> f64 {
         (low, high) = (low * f0, high * f1);
         n += 1.0;
     }
-    sum
+    Some(sum)
 }
