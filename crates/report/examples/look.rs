@@ -1,7 +1,6 @@
 //! Writes a report to look at: `look FOLDER` the made-up one, `look FOLDER reports/NAME …` of real tables.
 
 #[path = "../tests/fixture/mod.rs"]
-#[expect(dead_code, reason = "the tests use the rest")]
 mod fixture;
 
 use record::{Summary, write_whole};

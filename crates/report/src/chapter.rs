@@ -36,12 +36,14 @@ impl<'a> Chapter<'a> {
         let folder = escape::slug(&summary.name);
         let mut figures: Vec<Figure> = Vec::new();
         for row in &summary.figures {
-            let name = escape::slug(&row.figure);
-            let csv = format!("{name}.csv");
-            // The tables themselves stand in the same folder.
-            let taken = figures.iter().any(|other| other.name.eq_ignore_ascii_case(&name));
-            if taken || Summary::FILES.iter().any(|table| table.eq_ignore_ascii_case(&csv)) {
-                return Err(ReportError::SameName { path: format!("{folder}/{csv}") });
+            let mut name = escape::slug(&row.figure);
+            // The tables stand in the same folder, and `orders` is a good name for a figure too.
+            let table = format!("{name}.csv");
+            if Summary::FILES.iter().any(|file| file.eq_ignore_ascii_case(&table)) {
+                name.push_str("-figure");
+            }
+            if figures.iter().any(|other| other.name.eq_ignore_ascii_case(&name)) {
+                return Err(ReportError::SameName { path: format!("{folder}/{name}.svg") });
             }
             let id = format!("{folder}--{name}");
             figures.push(Figure { row, name, id, drawing: draw(row, summary)? });

@@ -21,7 +21,7 @@ pub(crate) fn html(text: &str) -> String {
 
 /// Text in a Markdown table's cell or in a line: no markup of it is taken for ours.
 pub(crate) fn markdown(text: &str) -> String {
-    let flat = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = text.split_ascii_whitespace().collect::<Vec<_>>().join(" ");
     let mut out = String::with_capacity(flat.len());
     for (i, c) in flat.char_indices() {
         match c {
@@ -72,7 +72,7 @@ pub(crate) fn slug(text: &str) -> String {
 
 /// The sentences of a text, one each; abbreviations such as `p.` and `Fig.` end none.
 pub(crate) fn sentences(text: &str) -> Vec<String> {
-    let words: Vec<&str> = text.split_whitespace().collect();
+    let words: Vec<&str> = text.split_ascii_whitespace().collect();
     let (mut all, mut now) = (Vec::new(), String::new());
     for (i, word) in words.iter().enumerate() {
         if !now.is_empty() {

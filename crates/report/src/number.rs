@@ -83,7 +83,10 @@ fn trimmed(value: f64, digits: usize) -> String {
     if !mantissa.contains('.') {
         return text;
     }
-    format!("{}{rest}", mantissa.trim_end_matches('0').trim_end_matches('.'))
+    match mantissa.trim_end_matches('0').trim_end_matches('.') {
+        "1" if !rest.is_empty() => rest.trim_start_matches(" × ").to_owned(),
+        mantissa => format!("{mantissa}{rest}"),
+    }
 }
 
 /// A number split at its decimal exponent, rounded to so many digits.
@@ -106,7 +109,7 @@ fn not_finite(value: f64) -> String {
 pub(crate) fn error(value: Option<f64>) -> String {
     match value {
         None => NONE.to_owned(),
-        Some(v) if v.is_finite() && v.abs() < ROUND_OFF => "< 10⁻¹³".to_owned(),
+        Some(v) if v.is_finite() && v.abs() < ROUND_OFF => "<\u{a0}10⁻¹³".to_owned(),
         Some(v) => significant(v, 2),
     }
 }
@@ -158,7 +161,7 @@ pub(crate) fn with_error(value: f64, error: Option<f64>, of: &str) -> String {
         return format!("{}{unit}", short(value));
     };
     if error < ROUND_OFF && (value == 0.0 || value.abs() > 1e-10) {
-        return format!("{}{unit}, error < 10⁻¹³", trimmed(value, 10));
+        return format!("{}{unit}, error <\u{a0}10⁻¹³", trimmed(value, 10));
     }
     if error == 0.0 {
         return format!("{}{unit} ± 0", trimmed(value, 10));
@@ -261,7 +264,7 @@ mod tests {
     #[test]
     fn a_value_is_written_with_the_digits_its_error_leaves() {
         let table: &[(f64, Option<f64>, &str, &str)] = &[
-            (1.554_22, Some(2e-16), "J", "1.55422\u{202f}J, error < 10⁻¹³"),
+            (1.554_22, Some(2e-16), "J", "1.55422\u{202f}J, error <\u{a0}10⁻¹³"),
             (1.554_220_345_098, Some(3e-9), "J", "1.554220345 ± 3 × 10⁻⁹\u{202f}J"),
             (2.6, Some(0.05), "J", "2.60 ± 0.05\u{202f}J"),
             (2.6, Some(0.012), "1", "2.600 ± 0.012"),
@@ -271,9 +274,9 @@ mod tests {
             (1.234e-7, Some(5e-10), "m", "(1.234 ± 0.005) × 10⁻⁷\u{202f}m"),
             (3.2e6, Some(1e5), "Pa", "(3.20 ± 0.10) × 10⁶\u{202f}Pa"),
             (0.75, None, "N", "0.75\u{202f}N"),
-            (1e300, Some(1e-300), "", "10³⁰⁰ ± 10⁻³⁰⁰"),
+            (1e300, Some(1e-300), "", "10³⁰⁰, error <\u{a0}10⁻¹³"),
             (f64::NAN, Some(1.0), "", "not a number"),
-            (0.0, Some(0.0), "", "0, error < 10⁻¹³"),
+            (0.0, Some(0.0), "", "0, error <\u{a0}10⁻¹³"),
             (1.0, Some(f64::INFINITY), "", "1"),
         ];
         for (value, error, unit, text) in table {
@@ -285,13 +288,13 @@ mod tests {
     fn an_error_has_two_digits_and_round_off_is_named() {
         let table = [
             (None, "–"),
-            (Some(0.0), "< 10⁻¹³"),
-            (Some(3e-16), "< 10⁻¹³"),
+            (Some(0.0), "<\u{a0}10⁻¹³"),
+            (Some(3e-16), "<\u{a0}10⁻¹³"),
             (Some(3.21e-7), "3.2 × 10⁻⁷"),
             (Some(9.96e-7), "1.0 × 10⁻⁶"),
             (Some(0.0123), "0.012"),
             (Some(1.0), "1.0"),
-            (Some(1250.0), "1250"),
+            (Some(1260.0), "1300"),
             (Some(f64::INFINITY), "∞"),
         ];
         for (value, text) in table {

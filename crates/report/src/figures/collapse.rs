@@ -1,6 +1,5 @@
 //! Evaluations against the sweep at one tolerance: where a model without a Lipschitz constant breaks step control.
 
-use super::convergence::title;
 use super::{Drawing, incomplete, of_charts};
 use crate::plot::{Axis, Chart, LaneRow, Line, Look};
 use crate::select::{SOLVED, by_solver, corners_in_words, select};
@@ -33,14 +32,11 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
     let work = |case: &CaseRow| case.evaluations.max(1) as f64;
     let solved = cases.cases.iter().filter(|case| case.status == SOLVED);
     let y = Axis::decades("evaluations", solved.map(|case| work(case)));
-    let tolerance = format!("tolerance {}", number::short(value));
-    let mut chart = Chart {
-        title: title(&tolerance, corners_in_words(&corners)),
-        x,
-        y,
-        size: (640.0, 280.0),
-        ..Chart::default()
-    };
+    let mut told = format!("tolerance {}, {}", number::short(value), corners_in_words(&corners));
+    if let Some(study) = summary.studies.iter().find(|study| study.study == figure.study) {
+        put!(told, ", at most {} evaluations", number::count(study.budget));
+    }
+    let mut chart = Chart { title: told, x, y, size: (640.0, 280.0), ..Chart::default() };
     for (solver, own) in by_solver(cases.cases.iter().copied()) {
         let look = Look::of_solver(solver);
         let height = |case: &CaseRow| if case.status == SOLVED { work(case) } else { f64::NAN };

@@ -1,13 +1,15 @@
 //! Observed orders, with corners restarted against ignored, beside the declared one: what a missed reversal costs.
 
 use super::{Datum, Drawing, fault, incomplete};
-use crate::plot::{Canvas, Fault, Ink, Look, MARK, Panel, Side, rank, sketch, text_width};
+use crate::plot::{Canvas, Fault, Ink, Look, MARK, Panel, Side, fit, rank, sketch, text_width};
 use crate::select::{Selection, distinct, select};
 use crate::{ReportError, number};
 use record::{FigureRow, OrderRow, Summary};
 
 /// The height of a solver's row [px].
 const ROW: f64 = 22.0;
+/// The widest name [px]; a longer one is cut.
+const NAME: f64 = 180.0;
 /// Between two columns [px].
 const GAP: f64 = 14.0;
 /// Above the rows: two lines, the key and the columns' titles [px].
@@ -37,7 +39,7 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
     let mut solvers = distinct(selection.orders.iter().map(|row| row.solver.as_str()));
     solvers.sort_by_key(|solver| rank(solver));
     let declared = selection.orders.iter().filter_map(|row| row.declared).max().unwrap_or(1);
-    let left = solvers.iter().map(|name| text_width(name)).fold(0.0, f64::max) + 26.0;
+    let left = solvers.iter().map(|name| text_width(name)).fold(0.0, f64::max).min(NAME) + 26.0;
     let columns = selection.points.len() as f64;
     let column = ((848.0 - left) / columns - GAP).clamp(90.0, 320.0);
     let layout =
@@ -85,10 +87,15 @@ impl Layout<'_> {
                 canvas.block((0.0, y - half), (right, y + half), Ink::Band)?;
             }
             canvas.mark((10.0, y), Look::of_solver(solver))?;
-            canvas.text(solver, (20.0, y), Side::Right, Ink::Label(Look::of_solver(solver)))?;
+            canvas.text(
+                &fit(solver, NAME),
+                (20.0, y),
+                Side::Right,
+                Ink::Label(Look::of_solver(solver)),
+            )?;
         }
         for (column, point) in self.selection.points.iter().enumerate() {
-            let title = number::point(point);
+            let title = fit(&number::point(point), self.column + GAP - 4.0);
             canvas.text(&title, (self.place(column, 0.0), HEAD - 12.0), Side::Right, Ink::Title)?;
             let stride = if self.most > 5.0 { 2 } else { 1 };
             for order in (0..=9).step_by(stride).map(f64::from).take_while(|o| *o <= self.most) {
@@ -123,7 +130,7 @@ impl Layout<'_> {
             return Ok(());
         };
         let tick = self.place(column, declared as f64);
-        canvas.line(&[(tick, y - 7.0), (tick, y + 7.0)], Ink::Line(DECLARED))?;
+        canvas.line(&[(tick, y - 7.0), (tick, y + 7.0)], Ink::Tick)?;
         let orders = rows.map(|row| row.and_then(|row| row.order).filter(|o| o.is_finite()));
         if let [Some(a), Some(b)] = orders {
             let ends = [(self.place(column, a), y), (self.place(column, b), y)];
@@ -141,20 +148,21 @@ impl Layout<'_> {
     }
 }
 
-const RESTARTED: Look = Look::named(1, false);
-const IGNORED: Look = Look::named(3, true);
-const DECLARED: Look = Look::named(2, false);
+const RESTARTED: Look = Look::filled(1);
+const IGNORED: Look = Look::hollow(3);
 
 fn draw_key(canvas: &Canvas, left: f64) -> Result<(), Fault> {
     let mut x = left + MARK;
     let y = 11.0;
-    for (look, text) in
-        [(RESTARTED, "restarted at corners"), (IGNORED, "corners ignored"), (DECLARED, "declared")]
-    {
-        if look == DECLARED {
-            canvas.line(&[(x, y - 7.0), (x, y + 7.0)], Ink::Line(look))?;
-        } else {
-            canvas.mark((x, y), look)?;
+    let entries = [
+        (Some(RESTARTED), "restarted at corners"),
+        (Some(IGNORED), "corners ignored"),
+        (None, "declared"),
+    ];
+    for (look, text) in entries {
+        match look {
+            Some(look) => canvas.mark((x, y), look)?,
+            None => canvas.line(&[(x, y - 7.0), (x, y + 7.0)], Ink::Tick)?,
         }
         canvas.text(text, (x + 9.0, y), Side::Right, Ink::Text)?;
         x += text_width(text) + 28.0;

@@ -10,8 +10,8 @@ use record::{FigureRow, Summary};
 /// The figure; the tolerance tightens to the right.
 pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, ReportError> {
     let cases = select(figure, summary, Some("rtol"));
-    let values = Axis::values("relative tolerance", cases.cases.iter().map(|c| c.value).collect());
-    let x = Axis { at: Vec::new(), ..values }.reversed();
+    let values = cases.cases.iter().map(|case| case.value).collect();
+    let x = Axis::values("relative tolerance", values).reversed();
     let charts = charts(&cases, &x, "rtol", &[Guide::Equal("error = tolerance")]);
     of_charts(figure, charts, cases.corners().len())
 }

@@ -1,13 +1,16 @@
 //! Largest error against evaluations of the right-hand side: what accuracy costs, solver by solver.
+//!
+//! Fixed steps and step control stand side by side on the same axes, each with the other's lines in grey:
+//! fourteen lines in one panel could not be told apart.
 
 use super::convergence::{add, error_axis, title};
 use super::{Drawing, of_charts};
 use crate::ReportError;
 use crate::plot::{Axis, Chart};
-use crate::select::{by_solver, corners_in_words, select};
+use crate::select::{by_solver, corners_in_words, distinct, select};
 use record::{CaseRow, FigureRow, Summary};
 
-/// One panel for each sweep point; where both treatments of corners were run, the restarted ones.
+/// A row of panels for each sweep point; where both treatments of corners were run, the restarted ones.
 pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, ReportError> {
     let mut cases = select(figure, summary, None);
     let corners = cases.corners().first().map(|name| (*name).to_owned()).unwrap_or_default();
@@ -15,21 +18,37 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
     let work = |case: &CaseRow| case.evaluations.max(1) as f64;
     let x = Axis::decades("evaluations", cases.cases.iter().map(|case| work(case)));
     let y = error_axis(&cases.cases);
+    let mut controls = distinct(cases.cases.iter().map(|case| case.control.as_str()));
+    controls.sort_by_key(|name| std::cmp::Reverse(*name));
     let mut charts = Vec::new();
     for point in &cases.points {
-        let mut chart = Chart {
-            title: title(point, corners_in_words(&corners)),
-            x: x.clone(),
-            y: y.clone(),
-            size: (414.0, 250.0),
-            ..Chart::default()
-        };
-        let here = cases.cases.iter().filter(|case| case.point == *point).copied();
-        for (solver, own) in by_solver(here) {
-            // A line joins the cases of one kind of control.
-            add(&mut chart, solver, &own, work);
+        let mut row: Vec<Chart> = Vec::new();
+        for control in &controls {
+            let name = match *control {
+                "step" => "fixed step",
+                "rtol" => "step control",
+                other => other,
+            };
+            let mut chart = Chart {
+                title: title(point, &format!("{name}, {}", corners_in_words(&corners))),
+                x: x.clone(),
+                y: y.clone(),
+                size: (414.0, 230.0),
+                ..Chart::default()
+            };
+            let here = |case: &&CaseRow| case.point == *point && case.control == *control;
+            for (solver, own) in by_solver(cases.cases.iter().copied().filter(here)) {
+                add(&mut chart, solver, &own, work);
+            }
+            row.push(chart);
         }
-        charts.push(chart);
+        let lines: Vec<Vec<_>> =
+            row.iter().map(|c| c.lines.iter().map(|line| line.points.clone()).collect()).collect();
+        for (i, chart) in row.iter_mut().enumerate() {
+            let others = lines.iter().enumerate().filter(|(other, _)| *other != i);
+            chart.ghosts = others.flat_map(|(_, lines)| lines.iter().cloned()).collect();
+        }
+        charts.extend(row);
     }
-    of_charts(figure, charts, 2)
+    of_charts(figure, charts, controls.len())
 }

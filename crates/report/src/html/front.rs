@@ -48,7 +48,7 @@ fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
     let printed = number::printed(claim.printed, claim.digits, &claim.unit);
     let mut more = Vec::new();
     if !claim.how.is_empty() {
-        more.push(html(&claim.how));
+        more.push(format!("Decided by {}", html(&claim.how)));
     }
     if let Some(figure) = chapter.shown(claim) {
         more.push(format!("<a href=\"#{}\">{}</a>", figure.id, html(&figure.row.title)));

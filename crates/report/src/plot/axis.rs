@@ -87,10 +87,21 @@ impl Axis {
     /// At most about `most` labelled places.
     pub(crate) fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.at.is_empty() {
-            return self.at.iter().map(|v| (*v, number::short(*v))).collect();
+            return self.at.iter().map(|v| (*v, self.label_of(*v))).collect();
         }
         let (low, high) = (self.from.min(self.to), self.from.max(self.to));
         if self.log { log_ticks(low, high, most) } else { linear_ticks(low, high, most) }
+    }
+
+    /// A value as this axis writes it: whole decades of a logarithmic one as powers.
+    #[expect(clippy::cast_possible_truncation, reason = "exponents of finite numbers are small")]
+    fn label_of(&self, value: f64) -> String {
+        let exponent = value.log10().round() as i32;
+        if self.log && (value / 10f64.powi(exponent) - 1.0).abs() < 1e-9 {
+            number::power_of_ten(exponent)
+        } else {
+            number::short(value)
+        }
     }
 
     /// The decades between the labelled ones.
@@ -151,7 +162,7 @@ fn near_ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
 fn linear_ticks(low: f64, high: f64, most: usize) -> Vec<Tick> {
     let raw = (high - low) / most.max(2) as f64;
     let decade = 10f64.powf(raw.log10().floor());
-    let lead = [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().find(|l| l * decade >= raw * 0.999);
+    let lead = [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().find(|l| l * decade >= raw * 0.8);
     let step = lead.unwrap_or(10.0) * decade;
     let first = (low / step - 1e-9).ceil();
     let mut ticks = Vec::new();
@@ -202,8 +213,12 @@ mod tests {
         );
         assert_eq!(labels(&axis(3.0, 40.0, true), 6), ["5", "10", "20"]);
         assert_eq!(labels(&axis(-1.0, 1.0, false), 5), ["−1", "−0.5", "0", "0.5", "1"]);
-        assert_eq!(labels(&axis(-0.8, 0.8, false), 5), ["−0.8", "−0.4", "0", "0.4", "0.8"]);
+        assert_eq!(
+            labels(&axis(-0.8, 0.8, false), 8),
+            ["−0.8", "−0.6", "−0.4", "−0.2", "0", "0.2", "0.4", "0.6", "0.8"]
+        );
         assert_eq!(labels(&Axis::values("", vec![65.0, 33.0, 65.0]), 6), ["33", "65"]);
+        assert_eq!(labels(&Axis::values("", vec![1e-3, 1e-5]), 6), ["10⁻⁵", "10⁻³"]);
     }
 
     #[test]

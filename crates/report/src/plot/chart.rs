@@ -50,25 +50,35 @@ pub(crate) struct Chart {
     pub(crate) guides: Vec<Guide>,
     /// The whole width and the height between the axes' ends [px].
     pub(crate) size: (f64, f64),
-    /// Room for names right of the plot [px] and rows of the lane, as [`align`] shares them.
+    /// Lines of other panels to compare with, without names.
+    pub(crate) ghosts: Vec<Vec<(f64, f64)>>,
+    /// Room for names right of the plot [px] and lines below it, as [`align`] shares them.
     pub(crate) margin: (f64, usize),
 }
 
 /// The height of a line of labels [px].
 const LABEL: f64 = 14.5;
+/// The widest name [px]; a longer one is cut.
+pub(super) const NAME: f64 = 180.0;
+/// Left of the key of failures [px].
+const INDENT: f64 = 48.0;
+/// The piece of line before a label [px].
+pub(super) const SAMPLE: f64 = 18.0;
 
-/// Gives the panels of a figure the same margins, and those side by side the same lane.
+/// Gives the panels of a figure the same margins, and those side by side the same foot:
+/// they are aligned at their lower ends.
 pub(crate) fn align(charts: &mut [Chart], columns: usize) {
     let names = charts.iter().flat_map(|chart| {
         let lane = chart.lane.iter().map(|row| labels::width(&row.name));
         chart.lines.iter().map(|line| labels::width(&line.label())).chain(lane)
     });
-    let room = names.fold(0.0, f64::max) + 28.0;
+    let room = names.fold(0.0, f64::max).min(NAME) + 16.0 + SAMPLE;
     let tall = charts.iter().map(|c| c.lines.len() as f64 * LABEL).fold(0.0, f64::max);
     for row in charts.chunks_mut(columns.max(1)) {
-        let rows = row.iter().map(|chart| chart.lane.len()).max().unwrap_or(0);
+        let key = |chart: &Chart| lane::key(&chart.lane, chart.size.0 - INDENT).len();
+        let lines = row.iter().map(key).max().unwrap_or(0);
         for chart in row {
-            chart.margin = (room, rows);
+            chart.margin = (room, lines);
             chart.size.1 = chart.size.1.max(tall);
         }
     }
@@ -84,6 +94,23 @@ impl Line {
     }
 }
 
+/// A few places along a long line to mark, at other places for each line.
+fn sparse(places: &[(f64, f64)], n: usize) -> Vec<(f64, f64)> {
+    const MARKS: f64 = 4.0;
+    let step = |pair: &[(f64, f64)]| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
+    let length: f64 = places.windows(2).map(step).sum();
+    let mut next = length / MARKS * (0.12 + 0.37 * n as f64).fract();
+    let (mut way, mut marks) = (0.0, Vec::new());
+    for pair in places.windows(2) {
+        way += step(pair);
+        if way > next {
+            marks.push(pair[1]);
+            next += length / MARKS;
+        }
+    }
+    marks
+}
+
 /// Where things stand in a panel [px].
 struct Frame {
     left: f64,
@@ -97,10 +124,12 @@ struct Frame {
 impl Frame {
     fn new(chart: &Chart) -> Self {
         let ticks = chart.y.ticks(6);
-        let widest = ticks.iter().map(|(_, text)| labels::width(text)).fold(38.0, f64::max);
+        let widest =
+            ticks.iter().map(|(_, text)| labels::width(text)).fold(38.0, f64::max).min(80.0);
         let (left, right) = (widest + 10.0, chart.size.0 - chart.margin.0);
         let lane = if chart.title.is_empty() { 24.0 } else { 44.0 };
-        let top = lane + if chart.margin.1 > 0 { ROW * chart.margin.1 as f64 + 5.0 } else { 0.0 };
+        let top =
+            lane + if chart.lane.is_empty() { 0.0 } else { ROW * chart.lane.len() as f64 + 5.0 };
         let bottom = top + chart.size.1;
         let pixels = (units(left)..units(right), units(bottom)..units(top));
         let coordinates = Cartesian2d::new(chart.x.clone(), chart.y.clone(), pixels);
@@ -122,19 +151,22 @@ impl Chart {
     /// Draws the panel.
     pub(crate) fn draw(&self) -> Result<Panel, Fault> {
         let frame = Frame::new(self);
-        let key = lane::key(&self.lane, self.size.0 - frame.left);
-        let height = frame.bottom + 42.0 + 17.0 * key.len() as f64;
+        let key = lane::key(&self.lane, self.size.0 - INDENT);
+        let height = frame.bottom + 42.0 + 17.0 * self.margin.1 as f64;
         let body = sketch((self.size.0, height), |canvas| {
             self.draw_axes(canvas, &frame)?;
             self.draw_guides(canvas, &frame)?;
-            // Rows stand at the lane's lower end, next to the plot.
-            let top = frame.lane + ROW * (self.margin.1.saturating_sub(self.lane.len())) as f64;
             let along = |x| frame.place((x, self.y.from)).0;
-            lane::draw(canvas, &self.lane, (frame.left, top, frame.right), along)?;
+            lane::draw(canvas, &self.lane, (frame.left, frame.lane, frame.right), along)?;
             self.draw_lines(canvas, &frame)?;
             for (i, line) in key.iter().enumerate() {
                 let y = frame.bottom + 50.0 + 17.0 * i as f64;
-                canvas.text(line, (frame.left, y), Side::Right, Ink::Muted)?;
+                canvas.text(
+                    &labels::fit(line, self.size.0 - INDENT),
+                    (INDENT, y),
+                    Side::Right,
+                    Ink::Muted,
+                )?;
             }
             Ok(())
         })?;
@@ -145,11 +177,22 @@ impl Chart {
     fn draw_axes(&self, canvas: &Canvas, frame: &Frame) -> Result<(), Fault> {
         let (left, right, top, bottom) = (frame.left, frame.right, frame.top, frame.bottom);
         if !self.title.is_empty() {
-            canvas.text(&self.title, (0.0, 11.0), Side::Right, Ink::Title)?;
+            let title = labels::fit(&self.title, self.size.0);
+            canvas.text(&title, (0.0, 11.0), Side::Right, Ink::Title)?;
         }
         let above = frame.lane - 13.0;
-        canvas.text(&self.y.label, (0.0, above), Side::Right, Ink::Muted)?;
-        canvas.text(&self.x.label, (right, bottom + 33.0), Side::Left, Ink::Muted)?;
+        canvas.text(
+            &labels::fit(&self.y.label, self.size.0),
+            (0.0, above),
+            Side::Right,
+            Ink::Muted,
+        )?;
+        canvas.text(
+            &labels::fit(&self.x.label, right),
+            (right, bottom + 33.0),
+            Side::Left,
+            Ink::Muted,
+        )?;
         for (value, text) in self.y.ticks(6) {
             let y = frame.place((self.x.from, value)).1;
             canvas.line(&[(left, y), (right, y)], Ink::Grid)?;
@@ -185,8 +228,9 @@ impl Chart {
                     let box_ends = ((frame.left, frame.top), (frame.right, frame.bottom));
                     for piece in thin::visible(&line, box_ends.0, box_ends.1) {
                         canvas.line(&piece, Ink::Guide)?;
-                        if let Some(end) = piece.last() {
-                            let at = (end.0 - 4.0, end.1 + 10.0);
+                        if let [start, end] = piece[..] {
+                            let along = |a: f64, b: f64| a + 0.72 * (b - a);
+                            let at = (along(start.0, end.0) - 5.0, along(start.1, end.1) + 8.0);
                             canvas.text(name, at, Side::Left, Ink::Muted)?;
                         }
                     }
@@ -218,8 +262,14 @@ impl Chart {
 
     fn draw_lines(&self, canvas: &Canvas, frame: &Frame) -> Result<(), Fault> {
         let mut ends = Vec::new();
-        for line in &self.lines {
-            let (low, high) = ((frame.left, frame.top), (frame.right, frame.bottom));
+        let (low, high) = ((frame.left, frame.top), (frame.right, frame.bottom));
+        for ghost in self.ghosts.iter().flat_map(|line| line.split(|p| !p.1.is_finite())) {
+            let places: Vec<_> = ghost.iter().map(|p| frame.place(*p)).collect();
+            for piece in thin::visible(&places, low, high) {
+                canvas.line(&piece, Ink::Ghost)?;
+            }
+        }
+        for (n, line) in self.lines.iter().enumerate() {
             let mut places = Vec::new();
             // A value that is not there breaks the line.
             for run in line.points.split(|p| !p.0.is_finite() || !p.1.is_finite()) {
@@ -229,8 +279,9 @@ impl Chart {
                 }
                 places.extend(run);
             }
-            for place in places.iter().filter(|place| line.marks && frame.holds(**place)) {
-                canvas.mark(*place, line.look)?;
+            let marks = if line.marks { places.clone() } else { sparse(&places, n) };
+            for place in marks.into_iter().filter(|place| frame.holds(*place)) {
+                canvas.mark(place, line.look)?;
             }
             // The name stands beside the rightmost point, at most at the plot's edge.
             let end = places.iter().copied().reduce(|a, b| if b.0 >= a.0 { b } else { a });
@@ -241,10 +292,18 @@ impl Chart {
         let heights = spread(&wished, LABEL, frame.top + 5.0, frame.bottom - 5.0);
         for (((x, y), line), height) in ends.into_iter().zip(heights) {
             let start = (x + 5.0).min(frame.right);
-            canvas.line(&[(start, y), (frame.right + 10.0, height)], Ink::Leader)?;
-            canvas.mark((frame.right + 16.0, height), line.look)?;
-            let at = (frame.right + 24.0, height);
-            canvas.text(&line.label(), at, Side::Right, Ink::Label(line.look))?;
+            let sample = frame.right + 10.0;
+            canvas.line(&[(start, y), (sample - 2.0, height)], Ink::Leader)?;
+            let ends = [(sample, height), (sample + SAMPLE, height)];
+            canvas.line(&ends, Ink::Line(line.look))?;
+            canvas.mark((sample + SAMPLE / 2.0, height), line.look)?;
+            let at = (sample + SAMPLE + 5.0, height);
+            canvas.text(
+                &labels::fit(&line.label(), NAME),
+                at,
+                Side::Right,
+                Ink::Label(line.look),
+            )?;
         }
         Ok(())
     }

@@ -70,9 +70,14 @@ impl Look {
         look(small(n % 4) + 1, small(n % 6), SHAPES[n % 5], n / 5 % 2 == 1)
     }
 
-    /// A solid line of this colour with a round mark.
-    pub(crate) const fn named(colour: u8, hollow: bool) -> Self {
-        look(colour, 0, Shape::Circle, hollow)
+    /// A solid line of this colour with a filled circle.
+    pub(crate) const fn filled(colour: u8) -> Self {
+        look(colour, 0, Shape::Circle, false)
+    }
+
+    /// A solid line of this colour with a hollow diamond, which a filled circle does not hide.
+    pub(crate) const fn hollow(colour: u8) -> Self {
+        look(colour, 0, Shape::Diamond, true)
     }
 
     /// Whether the list of solvers has this name.
@@ -97,6 +102,12 @@ pub(crate) enum Ink {
     Axis,
     /// A reference: a slope, a limit.
     Guide,
+    /// A line of another panel.
+    Ghost,
+    /// A letter in the lane.
+    Letter(Look),
+    /// A tick that is looked for.
+    Tick,
     /// From a label to its line's end.
     Leader,
     /// Plain text.
@@ -130,6 +141,9 @@ impl Ink {
             Self::Line(look) => (9, look.colour, look.dash),
             Self::Fill(look) => (10, look.colour, 0),
             Self::Hollow(look) => (11, look.colour, 0),
+            Self::Tick => (0, 0, 0),
+            Self::Ghost => (13, 0, 0),
+            Self::Letter(look) => (14, look.colour, 0),
             Self::Label(look) => (12, look.colour, 0),
         };
         RGBColor(role, colour, dash)
@@ -138,8 +152,8 @@ impl Ink {
 
 /// The classes a colour of [`Ink::colour`] stands for.
 pub(crate) fn classes((role, colour, dash): (u8, u8, u8)) -> String {
-    const ROLES: [&str; 13] =
-        ["bg", "bn", "gr", "ax", "gu", "ld", "tx", "mu", "ti", "l", "f", "o", "t"];
+    const ROLES: [&str; 15] =
+        ["mk", "bn", "gr", "ax", "gu", "ld", "tx", "mu", "ti", "l", "f", "o", "t", "gh", "t lt"];
     let role = ROLES.get(usize::from(role)).copied().unwrap_or("tx");
     match (colour, dash) {
         (0, _) => role.to_owned(),

@@ -40,6 +40,23 @@ pub(crate) fn width(text: &str) -> f64 {
     text.chars().map(em).sum::<f64>() * super::canvas::TEXT
 }
 
+/// The text, cut with an ellipsis where it is wider than `most` pixels.
+pub(crate) fn fit(text: &str, most: f64) -> String {
+    if width(text) <= most {
+        return text.to_owned();
+    }
+    let mut cut = String::new();
+    for c in text.chars() {
+        cut.push(c);
+        if width(&cut) + width("…") > most {
+            cut.pop();
+            break;
+        }
+    }
+    cut.push('…');
+    cut
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -51,6 +68,7 @@ mod tests {
         assert_eq!(spread(&[99.0, 98.0, 0.0], 14.0, 0.0, 100.0), [100.0, 86.0, 0.0]);
         let crowd = spread(&[5.0; 20], 14.0, 0.0, 100.0);
         assert!(crowd.windows(2).all(|w| w[1] - w[0] >= 14.0), "{crowd:?}");
+        assert_eq!(fit("a name far too long", 60.0), "a name…");
         assert!(spread(&[], 14.0, 0.0, 1.0).is_empty());
     }
 }

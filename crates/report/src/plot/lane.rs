@@ -2,7 +2,9 @@
 
 use super::Look;
 use super::canvas::{Canvas, Fault, Side};
+use super::chart::{NAME, SAMPLE};
 use super::ink::Ink;
+use super::labels::fit;
 
 /// The height of a row [px].
 pub(crate) const ROW: f64 = 15.0;
@@ -71,10 +73,15 @@ pub(crate) fn draw(
         for (x, status) in &row.marks {
             let x = place(*x).clamp(left + 4.0, right - 4.0);
             let letter = failure_letter(status).to_string();
-            canvas.text(&letter, (x, y), Side::Middle, Ink::Label(row.look))?;
+            canvas.text(&letter, (x, y), Side::Middle, Ink::Letter(row.look))?;
         }
-        canvas.mark((right + 16.0, y), row.look)?;
-        canvas.text(&row.name, (right + 24.0, y), Side::Right, Ink::Label(row.look))?;
+        canvas.mark((right + 10.0 + SAMPLE / 2.0, y), row.look)?;
+        canvas.text(
+            &fit(&row.name, NAME),
+            (right + 15.0 + SAMPLE, y),
+            Side::Right,
+            Ink::Label(row.look),
+        )?;
     }
     Ok(())
 }

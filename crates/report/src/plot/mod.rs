@@ -13,7 +13,7 @@ pub(crate) use axis::Axis;
 pub(crate) use canvas::{Canvas, Fault, MARK, Side, sketch};
 pub(crate) use chart::{Chart, Guide, Line, align};
 pub(crate) use ink::{CSS, Ink, Look, rank};
-pub(crate) use labels::width as text_width;
+pub(crate) use labels::{fit, width as text_width};
 pub(crate) use lane::LaneRow;
 pub(crate) use sheet::{file, inline, thumbnail};
 

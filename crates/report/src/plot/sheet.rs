@@ -14,7 +14,7 @@ pub(crate) fn inline(panel: &Panel, id: &str, title: &str) -> String {
     format!(
         "<svg class=\"fig\" role=\"img\" aria-labelledby=\"{id}-t {id}-d\" viewBox=\"0 0 {w} {h}\" \
          style=\"width:{w}px;min-width:{least}px\"><title id=\"{id}-t\">{}</title>\
-         <desc id=\"{id}-d\">{}</desc><g id=\"{id}\">\n{}</g></svg>\n",
+         <desc id=\"{id}-d\">{}</desc><g id=\"{id}\" class=\"fig\">\n{}</g></svg>\n",
         html(&name),
         html(&panel.description),
         panel.body,
@@ -29,12 +29,13 @@ fn places(panels: &[Panel], columns: usize) -> (Vec<(f64, f64)>, f64, f64) {
     let (mut all, mut y, mut width) = (Vec::new(), 0.0, 0.0_f64);
     for row in panels.chunks(columns.max(1)) {
         let mut x = 0.0;
+        let height = row.iter().map(|panel| panel.height).fold(0.0, f64::max);
         for panel in row {
-            all.push((x, y));
+            all.push((x, y + height - panel.height));
             x += panel.width + GAP;
         }
         width = width.max(x - GAP);
-        y += row.iter().map(|panel| panel.height).fold(0.0, f64::max) + GAP;
+        y += height + GAP;
     }
     (all, width, (y - GAP).max(0.0))
 }
@@ -70,8 +71,8 @@ pub(crate) fn thumbnail(panels: &[Panel], columns: usize, id: impl Fn(usize) -> 
         width.round(),
         height.round()
     );
-    for (i, (x, _)) in places.iter().enumerate() {
-        put!(svg, "<use href=\"#{}\" x=\"{}\"/>", id(i), x.round());
+    for (i, (x, y)) in places.iter().enumerate() {
+        put!(svg, "<use href=\"#{}\" x=\"{}\" y=\"{}\"/>", id(i), x.round(), y.round());
     }
     svg.push_str("</svg>");
     svg
