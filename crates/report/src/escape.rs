@@ -33,7 +33,7 @@ pub(crate) fn markdown(text: &str) -> String {
                 out.push('\\');
                 out.push(c);
             }
-            '.' | ')' if i > 0 && flat[..i].bytes().all(|b| b.is_ascii_digit()) => {
+            '.' | ')' if is_list_mark(&flat, i) => {
                 out.push('\\');
                 out.push(c);
             }
@@ -49,6 +49,12 @@ pub(crate) fn markdown(text: &str) -> String {
         }
     }
     out.replace("www.", "www&#46;")
+}
+
+/// Whether the character at `i` would make a list's number of the digits before it.
+fn is_list_mark(text: &str, i: usize) -> bool {
+    let ends = text[i + 1..].chars().next().is_none_or(|next| next == ' ');
+    i > 0 && ends && text[..i].bytes().all(|b| b.is_ascii_digit())
 }
 
 /// A field of a CSV file.
@@ -116,7 +122,7 @@ mod tests {
         assert_eq!(html("<b a='1'>&\"\u{1}"), "&lt;b a=&#39;1&#39;&gt;&amp;&quot;\u{fffd}");
         assert_eq!(markdown("a|b `c` <d>\n# e"), "a\\|b \\`c\\` &lt;d&gt; \\# e");
         assert_eq!(markdown("http://x.y $1$"), "http:&#47;/x.y &#36;1&#36;");
-        assert_eq!([markdown("- a"), markdown("1. a")], ["\\- a", "1\\. a"]);
+        assert_eq!(["- a", "1. a", "2.6 J"].map(markdown), ["\\- a", "1\\. a", "2.6 J"]);
         assert_eq!(csv("a,\"b\""), "\"a,\"\"b\"\"\"");
         assert_eq!(slug("../../etc/passwd"), "etc-passwd");
         assert_eq!(slug("…"), "unnamed");

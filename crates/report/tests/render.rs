@@ -117,7 +117,8 @@ fn hostile_text_stays_text() {
         assert!(!text.contains("<script"), "{path}");
         assert!(!text.contains("<img"), "{path}");
         assert!(!text.contains("</text></svg><"), "{path}");
-        assert!(!text.contains("](javascript"), "{path}");
+        let link = text.replace("\\](", "").contains("](javascript");
+        assert!(!link || ending(output) != "md", "{path}");
     }
     let readme = find(&outputs, "hostile/README.md");
     for line in readme.lines().filter(|line| line.starts_with('|')) {
