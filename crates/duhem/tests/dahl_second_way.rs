@@ -1,8 +1,8 @@
 //! The Dahl closed form against the second way, which shares no formula with it.
 
 use duhem::{
-    Dahl,
-    closed_form::{dahl, second_way},
+    Dahl, Input,
+    closed_form::{Reference, dahl, second_way},
 };
 
 /// Around both exponents where the formulas change their kind, and between.
@@ -45,6 +45,24 @@ fn the_settled_loop_is_the_same_both_ways() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn a_trajectory_is_within_its_bound_of_the_second_way() {
+    let input = Input::sine(1.0, 0.1).unwrap();
+    let span = (0.0, 150.0);
+    for gamma in GAMMAS {
+        let dahl = model(gamma);
+        let run = dahl::Trajectory::new(&dahl, &input, 0.1, span).unwrap();
+        let (mut force, mut u) = (0.1, 0.0);
+        for t in input.corners(span.0, span.1).into_iter().chain([span.1]) {
+            force = second_way::advance(&dahl, force, input.u(t) - u);
+            u = input.u(t);
+            let off = (run.force(t) - force).abs();
+            assert!(off <= run.error_bound(), "γ = {gamma}, {t} s: off by {off:e} N");
+        }
+        assert!(run.error_bound() < 2e-12, "{:e} N", run.error_bound());
     }
 }
 

@@ -41,13 +41,16 @@ pub enum ReferenceError {
         /// The model's number of states.
         expected: usize,
     },
-    /// There is no closed form under this input.
-    #[error("velocity varies between {start} s and {end} s: expected an input of constant speeds")]
-    Velocity {
-        /// Start of the first arc of varying velocity [s].
-        start: f64,
-        /// Its end [s].
-        end: f64,
+    /// A settled state is asked of an input that does not repeat itself.
+    #[error("the input has no period: expected a periodic one")]
+    NoPeriod,
+    /// The quadrature would take too long.
+    #[error("{needed:e} panels of quadrature: expected at most {most:e}, take a shorter span")]
+    TooLong {
+        /// How many it needs.
+        needed: f64,
+        /// How many it may have.
+        most: f64,
     },
     /// The time span is empty or not finite.
     #[error("span = [{start}, {end}] s: expected a finite start before a finite end")]
@@ -133,10 +136,15 @@ impl Arcs {
         (self.times[k], self.times[k + 1])
     }
 
+    /// Velocity at time `t` [s] on arc `k` [m/s].
+    pub(crate) fn velocity(&self, k: usize, t: f64) -> f64 {
+        self.input.u_dot_on(self.times[k], self.times[k + 1], t)
+    }
+
     /// The constant velocity of arc `k` [m/s], if it is constant.
     pub(crate) fn constant_velocity(&self, k: usize) -> Option<f64> {
-        let (from, to) = (self.times[k], self.times[k + 1]);
-        let at = |part: f64| self.input.u_dot_on(from, to, from + part * (to - from));
+        let (from, to) = self.ends(k);
+        let at = |part: f64| self.velocity(k, from + part * (to - from));
         let (start, middle, end) = (at(0.0), at(0.5), at(1.0));
         (start == middle && middle == end).then_some(middle)
     }

@@ -28,7 +28,8 @@ pub fn work(dahl: &Dahl, force: f64, delta_u: f64) -> f64 {
 pub(super) fn loop_area(dahl: &Dahl, force: f64, beta: f64) -> f64 {
     let (a, unit) = (force / dahl.f_c, dahl.f_c * dahl.f_c / dahl.sigma);
     let one_way = small(dahl.gamma, -a, a).map(|work| unit * work);
-    2.0 * one_way.unwrap_or_else(|| work(dahl, -force, beta))
+    // Rounding could give an elastic loop, of γ = 0, an area below zero.
+    2.0 * one_way.unwrap_or_else(|| work(dahl, -force, beta)).max(0.0)
 }
 
 /// ∫F du [J] of the exact trajectory from `f0` [N] over a span of time [s].
