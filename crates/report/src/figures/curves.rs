@@ -19,6 +19,12 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
     let rows: Vec<&CurveRow> =
         summary.curves.iter().filter(|row| row.figure == figure.figure).collect();
     let names = distinct(rows.iter().map(|row| row.series.as_str()));
+    // Where no panel has two curves there is nothing to tell apart.
+    let in_panel = |panel: &&&PanelRow| {
+        let own = rows.iter().filter(|row| row.panel == panel.panel);
+        distinct(own.map(|row| row.series.as_str())).len()
+    };
+    let alone = panels.iter().map(|panel| in_panel(&panel)).all(|n| n < 2);
     let size = if panels.len() == 1 { (640.0, 340.0) } else { (414.0, 260.0) };
     let chart = |panel: &&PanelRow| {
         let axis = |label: &str, from, to, log| {
@@ -28,7 +34,7 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
             title: number::point(&panel.panel),
             x: axis(&panel.x, panel.x_min, panel.x_max, panel.x_log),
             y: axis(&panel.y, panel.y_min, panel.y_max, panel.y_log),
-            lines: lines(&rows, panel, &names),
+            lines: lines(&rows, panel, &names, alone),
             size,
             ..Chart::default()
         }
@@ -36,11 +42,12 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
     of_charts(figure, panels.iter().map(chart).collect(), 2.min(panels.len()))
 }
 
-fn lines(rows: &[&CurveRow], panel: &PanelRow, names: &[&str]) -> Vec<Line> {
+fn lines(rows: &[&CurveRow], panel: &PanelRow, names: &[&str], alone: bool) -> Vec<Line> {
     let line = |(n, name): (usize, &&str)| {
         let own = rows.iter().filter(|row| row.panel == panel.panel && row.series == **name);
         let points: Vec<_> = own.map(|row| (row.x, row.y)).collect();
         let marks = points.len() <= FEW;
+        let n = if alone { 0 } else { n };
         let look = if Look::is_solver(name) { Look::of_solver(name) } else { Look::nth(n) };
         Line { name: number::point(name), note: String::new(), look, points, marks }
     };

@@ -78,7 +78,7 @@ impl Layout<'_> {
 
     fn draw(&self, canvas: &Canvas) -> Result<(), Fault> {
         let bottom = HEAD + ROW * self.solvers.len() as f64;
-        draw_key(canvas, self.left)?;
+        draw_key(canvas, self.left, self.selection.orders.iter().any(|row| row.order.is_none()))?;
         for (n, solver) in self.solvers.iter().enumerate() {
             let y = HEAD + ROW * (n as f64 + 0.5);
             if n % 2 == 0 {
@@ -142,7 +142,7 @@ impl Layout<'_> {
             }
         }
         if orders == [None, None] && rows.iter().any(Option::is_some) {
-            canvas.text("none", (self.place(column, 0.0) + 4.0, y), Side::Right, Ink::Muted)?;
+            canvas.text("✗", (self.place(column, 0.0), y), Side::Middle, Ink::Letter(IGNORED))?;
         }
         Ok(())
     }
@@ -151,7 +151,8 @@ impl Layout<'_> {
 const RESTARTED: Look = Look::filled(1);
 const IGNORED: Look = Look::hollow(3);
 
-fn draw_key(canvas: &Canvas, left: f64) -> Result<(), Fault> {
+/// The signs; `missing` if there is a solver without an order.
+fn draw_key(canvas: &Canvas, left: f64, missing: bool) -> Result<(), Fault> {
     let mut x = left + MARK;
     let y = 11.0;
     let entries = [
@@ -166,6 +167,10 @@ fn draw_key(canvas: &Canvas, left: f64) -> Result<(), Fault> {
         }
         canvas.text(text, (x + 9.0, y), Side::Right, Ink::Text)?;
         x += text_width(text) + 28.0;
+    }
+    if missing {
+        canvas.text("✗", (x, y), Side::Middle, Ink::Letter(IGNORED))?;
+        canvas.text("too many runs failed", (x + 9.0, y), Side::Right, Ink::Text)?;
     }
     Ok(())
 }

@@ -41,13 +41,18 @@ impl Axis {
         Self { label: label.to_owned(), from, to, log: true, ..Self::default() }
     }
 
+    /// A logarithmic axis that holds these values with a little air.
+    pub(crate) fn tight(label: &str, values: impl Iterator<Item = f64>) -> Self {
+        Self { at: Vec::new(), ..Self::values(label, values.collect()) }
+    }
+
     /// A logarithmic axis that holds these few values and labels each of them.
     pub(crate) fn values(label: &str, mut values: Vec<f64>) -> Self {
         values.retain(|v| v.is_finite() && *v > 0.0);
         values.sort_by(f64::total_cmp);
         values.dedup();
         let (low, high) = ends(values.iter().copied()).unwrap_or((1.0, 10.0));
-        let air = (high / low).powf(0.06).max(1.1);
+        let air = (high / low).powf(0.05).max(1.1);
         let at = if values.len() > 8 { Vec::new() } else { values };
         Self { label: label.to_owned(), from: low / air, to: high * air, log: true, at }
     }

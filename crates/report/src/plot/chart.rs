@@ -73,7 +73,7 @@ pub(crate) fn align(charts: &mut [Chart], columns: usize) {
         chart.lines.iter().map(|line| labels::width(&line.label())).chain(lane)
     });
     let room = names.fold(0.0, f64::max).min(NAME) + 16.0 + SAMPLE;
-    let tall = charts.iter().map(|c| c.lines.len() as f64 * LABEL).fold(0.0, f64::max);
+    let tall = charts.iter().map(|c| (c.lines.len() + 1) as f64 * LABEL).fold(0.0, f64::max);
     for row in charts.chunks_mut(columns.max(1)) {
         let key = |chart: &Chart| lane::key(&chart.lane, chart.size.0 - INDENT).len();
         let lines = row.iter().map(key).max().unwrap_or(0);
@@ -92,6 +92,28 @@ impl Line {
             format!("{} {}", self.name, self.note)
         }
     }
+}
+
+/// The end of a line, the line unless it is a guide, and what is written there.
+type Label<'a> = ((f64, f64), Option<&'a Line>, String);
+
+/// Names right of the plot, each with a piece of its line, none over another.
+fn draw_labels(canvas: &Canvas, frame: &Frame, labels: &[Label]) -> Result<(), Fault> {
+    let wished: Vec<f64> = labels.iter().map(|(end, _, _)| end.1).collect();
+    let heights = spread(&wished, LABEL, frame.top + 5.0, frame.bottom - 5.0);
+    for (((x, y), line, text), height) in labels.iter().zip(heights) {
+        let (start, sample) = ((x + 5.0).min(frame.right), frame.right + 10.0);
+        canvas.line(&[(start, *y), (sample - 2.0, height)], Ink::Leader)?;
+        let piece = [(sample, height), (sample + SAMPLE, height)];
+        canvas.line(&piece, line.map_or(Ink::Guide, |line| Ink::Line(line.look)))?;
+        if let Some(line) = line {
+            canvas.mark((sample + SAMPLE / 2.0, height), line.look)?;
+        }
+        let ink = line.map_or(Ink::Muted, |line| Ink::Label(line.look));
+        let at = (sample + SAMPLE + 5.0, height);
+        canvas.text(&labels::fit(text, NAME), at, Side::Right, ink)?;
+    }
+    Ok(())
 }
 
 /// A few places along a long line to mark, at other places for each line.
@@ -222,22 +244,20 @@ impl Chart {
         for guide in &self.guides {
             match guide {
                 Guide::Slopes(slopes) => self.draw_slopes(canvas, frame, slopes)?,
-                Guide::Equal(name) => {
-                    let ends = [(self.x.from, self.x.from), (self.x.to, self.x.to)];
-                    let line = ends.map(|end| frame.place(end));
-                    let box_ends = ((frame.left, frame.top), (frame.right, frame.bottom));
-                    for piece in thin::visible(&line, box_ends.0, box_ends.1) {
+                Guide::Equal(_) => {
+                    for piece in self.equal(frame) {
                         canvas.line(&piece, Ink::Guide)?;
-                        if let [start, end] = piece[..] {
-                            let along = |a: f64, b: f64| a + 0.72 * (b - a);
-                            let at = (along(start.0, end.0) - 5.0, along(start.1, end.1) + 8.0);
-                            canvas.text(name, at, Side::Left, Ink::Muted)?;
-                        }
                     }
                 }
             }
         }
         Ok(())
+    }
+
+    /// The line on which both axes have the same value.
+    fn equal(&self, frame: &Frame) -> Vec<Vec<(f64, f64)>> {
+        let line = [self.x.from, self.x.to].map(|end| frame.place((end, end)));
+        thin::visible(&line, (frame.left, frame.top), (frame.right, frame.bottom))
     }
 
     /// One triangle beside the other, each falling by its slope over a factor of two.
@@ -279,33 +299,26 @@ impl Chart {
                 }
                 places.extend(run);
             }
-            let marks = if line.marks { places.clone() } else { sparse(&places, n) };
+            let marks = match (line.marks, self.lines.len()) {
+                (true, _) => places.clone(),
+                (false, 0..=1) => Vec::new(),
+                (false, _) => sparse(&places, n),
+            };
             for place in marks.into_iter().filter(|place| frame.holds(*place)) {
                 canvas.mark(place, line.look)?;
             }
             // The name stands beside the rightmost point, at most at the plot's edge.
             let end = places.iter().copied().reduce(|a, b| if b.0 >= a.0 { b } else { a });
             let end = end.map(|(x, y)| (x.min(frame.right), y.clamp(frame.top, frame.bottom)));
-            ends.extend(end.map(|end| (end, line)));
+            ends.extend(end.map(|end| (end, Some(line), line.label())));
         }
-        let wished: Vec<f64> = ends.iter().map(|(end, _)| end.1).collect();
-        let heights = spread(&wished, LABEL, frame.top + 5.0, frame.bottom - 5.0);
-        for (((x, y), line), height) in ends.into_iter().zip(heights) {
-            let start = (x + 5.0).min(frame.right);
-            let sample = frame.right + 10.0;
-            canvas.line(&[(start, y), (sample - 2.0, height)], Ink::Leader)?;
-            let ends = [(sample, height), (sample + SAMPLE, height)];
-            canvas.line(&ends, Ink::Line(line.look))?;
-            canvas.mark((sample + SAMPLE / 2.0, height), line.look)?;
-            let at = (sample + SAMPLE + 5.0, height);
-            canvas.text(
-                &labels::fit(&line.label(), NAME),
-                at,
-                Side::Right,
-                Ink::Label(line.look),
-            )?;
+        let mut labels: Vec<Label> = ends;
+        for guide in &self.guides {
+            let Guide::Equal(name) = guide else { continue };
+            let end = self.equal(frame).last().and_then(|piece| piece.last().copied());
+            labels.extend(end.map(|end| (end, None, (*name).to_owned())));
         }
-        Ok(())
+        draw_labels(canvas, frame, &labels)
     }
 
     /// The panel in words.

@@ -4,10 +4,13 @@ use super::Look;
 use super::canvas::{Canvas, Fault, Side};
 use super::chart::{NAME, SAMPLE};
 use super::ink::Ink;
-use super::labels::fit;
+use super::labels::{fit, spread};
 
 /// The height of a row [px].
 pub(crate) const ROW: f64 = 15.0;
+
+/// The width of a letter [px].
+const LETTER: f64 = 10.0;
 
 /// One solver's failures.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,8 +73,9 @@ pub(crate) fn draw(
     canvas.text("failed", (left - 7.0, top + ROW / 2.0), Side::Left, Ink::Muted)?;
     for (i, row) in rows.iter().enumerate() {
         let y = top + ROW * (i as f64 + 0.5);
-        for (x, status) in &row.marks {
-            let x = place(*x).clamp(left + 4.0, right - 4.0);
+        let wished: Vec<f64> = row.marks.iter().map(|(x, _)| place(*x)).collect();
+        let places = spread(&wished, LETTER, left + 6.0, right - 6.0);
+        for ((_, status), x) in row.marks.iter().zip(places) {
             let letter = failure_letter(status).to_string();
             canvas.text(&letter, (x, y), Side::Middle, Ink::Letter(row.look))?;
         }
