@@ -21,7 +21,16 @@ pub(crate) fn html(text: &str) -> String {
 
 /// Text in a Markdown table's cell or in a line: no markup of it is taken for ours.
 pub(crate) fn markdown(text: &str) -> String {
-    let flat = text.split_ascii_whitespace().collect::<Vec<_>>().join(" ");
+    markdown_piece(&one_line(text), true)
+}
+
+/// Runs of blanks and line ends as single spaces.
+pub(crate) fn one_line(text: &str) -> String {
+    text.split_ascii_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A piece of one line; `begins` if a line begins with it.
+pub(crate) fn markdown_piece(flat: &str, begins: bool) -> String {
     let mut out = String::with_capacity(flat.len());
     for (i, c) in flat.char_indices() {
         match c {
@@ -29,11 +38,11 @@ pub(crate) fn markdown(text: &str) -> String {
                 out.push('\\');
                 out.push(c);
             }
-            '-' | '+' | '=' if i == 0 => {
+            '-' | '+' | '=' if begins && i == 0 => {
                 out.push('\\');
                 out.push(c);
             }
-            '.' | ')' if is_list_mark(&flat, i) => {
+            '.' | ')' if begins && is_list_mark(flat, i) => {
                 out.push('\\');
                 out.push(c);
             }

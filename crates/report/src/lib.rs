@@ -23,6 +23,7 @@ mod html;
 mod markdown;
 mod number;
 mod plot;
+mod prose;
 mod select;
 
 pub use error::ReportError;

@@ -1,9 +1,10 @@
 //! The same as Markdown, one sentence per line.
 
 use crate::chapter::{Chapter, Figure, count_of_claims, holds, ours, sign};
-use crate::escape::{self, code_path, markdown, sentences};
-use crate::grid::{self};
+use crate::escape::{code_path, markdown, sentences};
+use crate::grid;
 use crate::number;
+use crate::prose;
 use crate::select::distinct;
 use record::ClaimRow;
 
@@ -45,7 +46,7 @@ fn claim_row(chapter: &Chapter, claim: &ClaimRow) -> String {
     if !holds(claim).is_empty() {
         put!(verdict, "<br>{}", holds(claim));
     }
-    let mut why = vec![markdown(&claim.why), markdown(&claim.how)];
+    let mut why = vec![prose::markdown(&claim.why), prose::markdown(&claim.how)];
     if let Some(figure) = chapter.shown(claim) {
         let title = markdown(&figure.row.title);
         why.push(format!("[{title}]({}/{}.svg)", chapter.folder, figure.name));
@@ -54,7 +55,7 @@ fn claim_row(chapter: &Chapter, claim: &ClaimRow) -> String {
     why.retain(|part| !part.is_empty());
     format!(
         "| {verdict} | {says}<br>{place}<br>{id} | {printed} | {ours} | {why} |\n",
-        says = markdown(&claim.says),
+        says = prose::markdown(&claim.says),
         place = markdown(&claim.place),
         id = markdown(&claim.id),
         printed = markdown(&number::printed(claim.printed, claim.digits, &claim.unit)),
@@ -74,11 +75,11 @@ fn code(place: &str, up: &str) -> String {
 pub(crate) fn chapter(chapter: &Chapter) -> String {
     let summary = chapter.summary;
     let mut out = format!("# {}\n", markdown(chapter.title()));
-    out.push_str(&prose(summary.about("paper")));
-    out.push_str(&prose(summary.about("text")));
+    out.push_str(&paragraphs(summary.about("paper")));
+    out.push_str(&paragraphs(summary.about("text")));
     out.push_str("\n[All reports](../README.md)\n");
     for study in &summary.studies {
-        put!(out, "\n## {}\n{}", markdown(&study.study), prose(&study.text));
+        put!(out, "\n## {}\n{}", markdown(&study.study), paragraphs(&study.text));
         let told = [
             ("Model", &study.model),
             ("Input", &study.input),
@@ -89,7 +90,7 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
             out.push('\n');
         }
         for (key, text) in told {
-            put!(out, "- {key}: {}\n", markdown(text));
+            put!(out, "- {key}: {}\n", prose::markdown(text));
         }
         chapter.figures_of(&study.study).for_each(|figure| out.push_str(&picture(figure)));
     }
@@ -136,17 +137,17 @@ fn picture(figure: &Figure) -> String {
         title = markdown(&row.title),
         description = markdown(&row.description),
         name = figure.name,
-        caption = prose(&row.caption),
+        caption = paragraphs(&row.caption),
     )
 }
 
 /// Paragraphs, one sentence per line.
-fn prose(text: &str) -> String {
+fn paragraphs(text: &str) -> String {
     let mut out = String::new();
     for part in text.split("\n\n").filter(|part| !part.trim().is_empty()) {
         out.push('\n');
         for sentence in sentences(part) {
-            out.push_str(&escape::markdown(&sentence));
+            out.push_str(&prose::markdown(&sentence));
             out.push('\n');
         }
     }

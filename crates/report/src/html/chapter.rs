@@ -6,6 +6,7 @@ use crate::escape::html;
 use crate::grid;
 use crate::number;
 use crate::plot::inline;
+use crate::prose;
 use crate::select::distinct;
 use record::StudyRow;
 
@@ -15,7 +16,7 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
     let summary = chapter.summary;
     put!(out, "<section id=\"{id}\" class=\"chapter\">\n<h2>{title}</h2>\n");
     if !summary.about("paper").is_empty() {
-        put!(out, "<p class=\"place\">{}</p>\n", html(summary.about("paper")));
+        put!(out, "<p class=\"place\">{}</p>\n", prose::html(summary.about("paper")));
     }
     out.push_str(&paragraphs(summary.about("text")));
     for study in &summary.studies {
@@ -46,7 +47,7 @@ fn write_study(out: &mut String, study: &StudyRow) {
     told.retain(|(_, text)| !text.is_empty());
     out.push_str("<dl class=\"study\">");
     for (key, text) in told {
-        put!(out, "<dt>{key}<dd>{}", html(&text));
+        put!(out, "<dt>{key}<dd>{}", prose::html(&text));
     }
     out.push_str("</dl>\n");
 }
@@ -72,7 +73,7 @@ fn write_figure(out: &mut String, chapter: &Chapter, figure: &Figure) {
          <small><a href=\"{folder}/{name}.svg\">SVG</a> · \
          <a href=\"{folder}/{name}.csv\">data</a></small></figcaption></figure>\n",
         title = html(&row.title),
-        caption = html(&row.caption),
+        caption = prose::html(&row.caption),
         description = html(&row.description),
         folder = chapter.folder,
         name = figure.name

@@ -5,6 +5,7 @@ use crate::chapter::{Chapter, count_of_claims, holds, ours, sign};
 use crate::escape::html;
 use crate::number;
 use crate::plot::thumbnail;
+use crate::prose;
 use record::ClaimRow;
 
 /// Writes the front.
@@ -48,7 +49,7 @@ fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
     let printed = number::printed(claim.printed, claim.digits, &claim.unit);
     let mut more = Vec::new();
     if !claim.how.is_empty() {
-        more.push(format!("Decided by {}", html(&claim.how)));
+        more.push(format!("Decided by {}", prose::html(&claim.how)));
     }
     if let Some(figure) = chapter.shown(claim) {
         more.push(format!("<a href=\"#{}\">{}</a>", figure.id, html(&figure.row.title)));
@@ -66,12 +67,12 @@ fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
         id = crate::escape::slug(&claim.id),
         sign = sign(&claim.verdict),
         verdict = html(&claim.verdict),
-        says = html(&claim.says),
+        says = prose::html(&claim.says),
         place = html(&claim.place),
         name = html(&claim.id),
         printed = html(&printed),
         ours = html(&ours(claim)),
-        why = html(&claim.why),
+        why = prose::html(&claim.why),
         more = more.join(" · ")
     );
 }

@@ -46,7 +46,7 @@ fn made(out: &mut String, chapters: &[Chapter]) {
 fn paragraphs(text: &str) -> String {
     let parts = text.split("\n\n").map(str::trim).filter(|part| !part.is_empty());
     parts.fold(String::new(), |mut out, part| {
-        put!(out, "<p>{}</p>\n", html(part));
+        put!(out, "<p>{}</p>\n", crate::prose::html(part));
         out
     })
 }

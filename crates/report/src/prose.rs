@@ -1,0 +1,109 @@
+//! The little notation that texts of experiments use: `F_C`, `w^(1−γ)`, `*words*`.
+//! It is recognised before anything is escaped, so that all else stays plain text.
+
+use crate::escape;
+
+/// A piece of a text, and the element it stands in; none for plain text.
+type Piece = (Option<&'static str>, String);
+
+/// As HTML.
+pub(crate) fn html(text: &str) -> String {
+    write(text, escape::html)
+}
+
+/// As Markdown, in one line.
+pub(crate) fn markdown(text: &str) -> String {
+    let mut begins = true;
+    write(&escape::one_line(text), |piece| {
+        escape::markdown_piece(piece, std::mem::take(&mut begins))
+    })
+}
+
+fn write(text: &str, mut escape: impl FnMut(&str) -> String) -> String {
+    let mut out = String::new();
+    for (element, piece) in pieces(text) {
+        let piece = escape(&piece);
+        match element {
+            None => out.push_str(&piece),
+            Some(name) => put!(out, "<{name}>{piece}</{name}>"),
+        }
+    }
+    out
+}
+
+fn pieces(text: &str) -> Vec<Piece> {
+    let chars: Vec<char> = text.chars().collect();
+    let (mut all, mut plain, mut i) = (Vec::new(), String::new(), 0);
+    while i < chars.len() {
+        let found = match chars[i] {
+            '_' => subscript(&chars, i).map(|(end, inner)| ("sub", end, inner)),
+            '^' => exponent(&chars, i).map(|(end, inner)| ("sup", end, inner)),
+            '*' => emphasis(&chars, i).map(|(end, inner)| ("em", end, inner)),
+            _ => None,
+        };
+        if let Some((element, end, inner)) = found {
+            all.push((None, std::mem::take(&mut plain)));
+            all.push((Some(element), inner));
+            i = end;
+        } else {
+            plain.push(chars[i]);
+            i += 1;
+        }
+    }
+    all.push((None, plain));
+    all.retain(|(_, piece)| !piece.is_empty());
+    all
+}
+
+/// The index of a symbol of one letter: `F_C`, `v_S`, but not `tr_bdf2`.
+fn subscript(chars: &[char], at: usize) -> Option<(usize, String)> {
+    let letter = at > 0 && chars[at - 1].is_alphabetic();
+    let alone = at < 2 || !(chars[at - 2].is_alphanumeric() || chars[at - 2] == '_');
+    let inner: String = chars[at + 1..].iter().take_while(|c| c.is_alphanumeric()).collect();
+    let end = at + 1 + inner.chars().count();
+    let closed = chars.get(end) != Some(&'_');
+    (letter && alone && closed && (1..=3).contains(&(end - at - 1))).then_some((end, inner))
+}
+
+/// What is raised: a bracket's inside or one short word.
+fn exponent(chars: &[char], at: usize) -> Option<(usize, String)> {
+    if chars.get(at + 1) == Some(&'(') {
+        let inner: String = chars[at + 2..].iter().take_while(|c| !"()\n".contains(**c)).collect();
+        let end = at + 2 + inner.chars().count();
+        return (chars.get(end) == Some(&')') && !inner.is_empty()).then_some((end + 1, inner));
+    }
+    let raised = |c: &&char| c.is_alphanumeric() || **c == '−' || **c == '-';
+    let inner: String = chars[at + 1..].iter().take_while(raised).collect();
+    let length = inner.chars().count();
+    (1..=4).contains(&length).then_some((at + 1 + length, inner))
+}
+
+/// Words between two stars that touch them.
+fn emphasis(chars: &[char], at: usize) -> Option<(usize, String)> {
+    let inner: String = chars[at + 1..].iter().take_while(|c| **c != '*').collect();
+    let length = inner.chars().count();
+    let closed = chars.get(at + 1 + length) == Some(&'*');
+    let touches = !inner.starts_with(char::is_whitespace) && !inner.ends_with(char::is_whitespace);
+    (closed && touches && (1..=80).contains(&length)).then_some((at + 2 + length, inner))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symbols_get_their_index_and_exponent_and_names_stay_as_they_are() {
+        assert_eq!(html("F_C > v_S"), "F<sub>C</sub> &gt; v<sub>S</sub>");
+        assert_eq!(html("w^(1−γ) + |x|^γ"), "w<sup>1−γ</sup> + |x|<sup>γ</sup>");
+        assert_eq!(html("tr_bdf2, ode_solvers, 2 * 3 * 4"), "tr_bdf2, ode_solvers, 2 * 3 * 4");
+        assert_eq!(html("see *Error*, **b**"), "see <em>Error</em>, *<em>b</em>*");
+        assert_eq!(html("<^<b>_C"), "&lt;^&lt;b&gt;_C");
+    }
+
+    #[test]
+    fn markdown_keeps_the_spaces_around_an_element() {
+        let text = "the F_C of *a | b* is 1. and - so";
+        assert_eq!(markdown(text), "the F<sub>C</sub> of <em>a \\| b</em> is 1. and - so");
+        assert_eq!(markdown("tr_bdf2"), "tr\\_bdf2");
+    }
+}
