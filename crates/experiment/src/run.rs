@@ -154,8 +154,9 @@ fn named(plan: &Plan, case: &Case, mut record: CaseRecord) -> CaseRecord {
         |r: &&crate::plan::Irreproducible| r.covers((case.study, point), case.solver, case.corners);
     record.row.study.clone_from(&study.name);
     record.row.point.clone_from(&point.label);
-    record.row.irreproducible =
-        plan.irreproducible.iter().find(rule).map_or(String::new(), |r| r.name.clone());
+    let rule = plan.irreproducible.iter().find(rule);
+    record.row.irreproducible = rule.map_or(String::new(), |r| r.name.clone());
+    record.row.any_status = rule.is_some_and(|r| r.any_status);
     record
 }
 

@@ -206,8 +206,8 @@ pub struct PrintedSpec {
 pub struct IrreproducibleSpec {
     /// A short name, for the rows.
     pub name: String,
-    /// The study.
-    pub study: String,
+    /// The studies.
+    pub studies: Vec<String>,
     /// Values of the sweep; all if not given.
     #[serde(default)]
     pub select: BTreeMap<String, Vec<f64>>,
@@ -217,6 +217,9 @@ pub struct IrreproducibleSpec {
     /// `restart`, `ignore`; both if not given.
     #[serde(default)]
     pub corners: Vec<String>,
+    /// Whether not even the status is reproducible: runs that meet their budget on the edge.
+    #[serde(default)]
+    pub any_status: bool,
     /// The reason, for the report.
     pub why: String,
 }

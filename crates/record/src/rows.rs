@@ -80,6 +80,8 @@ table! {
         rejected: Option<u64> = "rejected",
         /// Why its numbers cannot be expected to come out the same on another processor; empty if they can.
         irreproducible: String = "irreproducible",
+        /// Whether not even its status can: it runs against its budget on the edge.
+        any_status: bool = "any status",
     }
 }
 
@@ -98,9 +100,10 @@ table! {
         declared: Option<u64> = "declared",
         /// `restart` or `ignore`.
         corners: String = "corners",
-        /// What the slope is taken against: `steps` or `rtol`.
+        /// What the slope is taken against: `steps` for fixed steps, `rtol` for adaptive ones.
         against: String = "against",
-        /// The slope of log error (max norm): the observed order if against steps.
+        /// The slope of log error (max norm): against steps the observed order, against rtol 1 if the error
+        /// follows the tolerance.
         order: Option<f64> = "order",
         /// How many cases it was fitted to, above round-off.
         points: u64 = "points",

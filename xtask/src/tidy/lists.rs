@@ -21,7 +21,12 @@ const FAMILIES: [Family; 4] = [
         // Loops and not trajectories: nothing to judge a run by.
         helpers: &["second_way", "semilinear"],
     },
-    Family { folder: "crates/integrate/src/solvers", file: "mod.rs", list: "SOLVERS", helpers: &[] },
+    Family {
+        folder: "crates/integrate/src/solvers",
+        file: "mod.rs",
+        list: "SOLVERS",
+        helpers: &[],
+    },
     Family { folder: "crates/report/src/figures", file: "mod.rs", list: "FIGURES", helpers: &[] },
 ];
 

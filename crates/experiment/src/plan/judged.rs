@@ -61,8 +61,10 @@ pub struct Irreproducible {
     pub name: String,
     /// The reason.
     pub why: String,
-    study: usize,
-    points: BTreeSet<String>,
+    /// Whether not even the status is reproducible.
+    pub any_status: bool,
+    /// The studies' indices, each with the points meant.
+    places: Vec<(usize, BTreeSet<String>)>,
     solvers: Vec<&'static Solver>,
     corners: Vec<Corners>,
 }
@@ -75,8 +77,7 @@ impl Irreproducible {
         solver: &Solver,
         corners: Corners,
     ) -> bool {
-        self.study == study
-            && self.points.contains(&point.label)
+        self.places.iter().any(|(s, points)| *s == study && points.contains(&point.label))
             && (self.solvers.is_empty() || self.solvers.iter().any(|s| s.name == solver.name))
             && (self.corners.is_empty() || self.corners.contains(&corners))
     }
@@ -207,13 +208,20 @@ fn irreproducible(
     spec: &IrreproducibleSpec,
     studies: &[Study],
 ) -> Result<Irreproducible, Complaint> {
-    let index = find_study(&spec.study, studies)?;
-    let points = studies[index].selected(&spec.select).map_err(|c| c.under("select"))?;
+    let mut places = Vec::new();
+    for (i, name) in spec.studies.iter().enumerate() {
+        let index = find_study(name, studies).map_err(|mut c| {
+            c.key = format!("studies[{i}]");
+            c
+        })?;
+        let points = studies[index].selected(&spec.select).map_err(|c| c.under("select"))?;
+        places.push((index, points.into_iter().map(|p| p.label.clone()).collect()));
+    }
     Ok(Irreproducible {
         name: spec.name.clone(),
         why: spec.why.trim().to_owned(),
-        study: index,
-        points: points.into_iter().map(|p| p.label.clone()).collect(),
+        any_status: spec.any_status,
+        places,
         solvers: study::solvers(&spec.solvers)?,
         corners: study::corners(&spec.corners)?,
     })

@@ -1,0 +1,37 @@
+//! The experiments of this repository, run once into a store that all tests share.
+
+use experiment::{Options, Plan, run, summary};
+use record::{Store, Summary};
+use std::{
+    path::{Path, PathBuf},
+    sync::{Arc, atomic::AtomicBool},
+    thread,
+    time::Duration,
+};
+
+/// The TOML files of this repository, sorted.
+pub(crate) fn experiments() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments");
+    let entries = std::fs::read_dir(folder).expect("experiments/");
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|e| e == "toml"));
+    paths.sort();
+    assert!(!paths.is_empty(), "no experiment");
+    paths
+}
+
+/// The tables of an experiment: its cases run, or found where another test of this build left them.
+pub(crate) fn tables(path: &Path) -> Summary {
+    let kinds: Vec<&str> = report::FIGURES.iter().map(|kind| kind.name).collect();
+    let plan = Arc::new(Plan::read(path, &kinds).expect("a right experiment"));
+    let stop = AtomicBool::new(false);
+    let options = Options {
+        store: Store::new(Path::new(env!("CARGO_TARGET_TMPDIR")).join("records")),
+        fresh: false,
+        threads: thread::available_parallelism().map_or(1, usize::from),
+        watchdog: Duration::from_secs(120),
+        stop: &stop,
+    };
+    let finished = run(&plan, &options, &|_| ()).expect("all cases");
+    summary(&plan, &finished).expect("the tables")
+}

@@ -1,0 +1,186 @@
+//! Wrong input gets one clear error with file, line and key, exit code 4, and nothing is written.
+
+mod common;
+
+use common::{Project, REAL, small};
+
+/// Runs a TOML that must be refused; the error must hold each of `words`.
+fn refused(text: &str, words: &[&str]) {
+    let project = Project::new(&[("wrong.toml", text)]);
+    let before = project.files("");
+    let ran = project.run(&["reproduce", "wrong"]);
+    assert_eq!(ran.code, Some(4), "{words:?}: {ran:?}");
+    assert_eq!(ran.err.matches("error:").count(), 1, "{}", ran.err);
+    assert!(ran.err.len() < 1000, "an error of {} bytes", ran.err.len());
+    assert!(ran.err.contains("wrong.toml:"), "no file and line: {}", ran.err);
+    for word in words {
+        assert!(ran.err.contains(word), "no `{word}` in: {}", ran.err);
+    }
+    assert_eq!(
+        common::difference(&before, &project.files("")),
+        None,
+        "{words:?}: something was written"
+    );
+}
+
+/// The line that holds `mark` in a text, as an error names it.
+fn line(text: &str, mark: &str) -> String {
+    let index = text.lines().position(|line| line.contains(mark)).expect("the mark");
+    format!("wrong.toml:{}:", index + 1)
+}
+
+fn changed(from: &str, to: &str) -> String {
+    let text = small("\"rk4\", \"dopri5\"");
+    assert!(text.contains(from), "the small experiment has no `{from}`");
+    text.replacen(from, to, 1)
+}
+
+#[test]
+fn the_small_experiment_itself_is_accepted() {
+    let project = Project::new(&[("right.toml", &small("\"rk4\""))]);
+    let ran = project.run(&["reproduce", "right"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+}
+
+#[test]
+fn a_negative_gamma_is_refused() {
+    let text = changed("gamma = [1.0, 2.0]", "gamma = [-1.0]");
+    refused(&text, &[&line(&text, "sweep "), "study[0].sweep.gamma", "-1", "zero or more"]);
+}
+
+#[test]
+fn a_negative_coulomb_force_is_refused() {
+    let text = changed("f_c = 0.75", "f_c = -0.75");
+    refused(&text, &[&line(&text, "model "), "study[0].model.f_c", "-0.75", "positive"]);
+}
+
+#[test]
+fn a_nan_is_refused() {
+    let text = changed("sigma = 1.5", "sigma = nan");
+    refused(&text, &["study[0].model.sigma", "NaN", "finite"]);
+    let text = changed("amplitude = 1.0", "amplitude = nan");
+    refused(&text, &[&line(&text, "input "), "study[0].input.amplitude", "NaN"]);
+    let text = changed("rtol      = [1e-3, 1e-6]", "rtol = [nan]");
+    refused(&text, &["study[0].rtol", "NaN", "from 1e-14"]);
+}
+
+#[test]
+fn an_unknown_key_is_refused_with_the_near_miss() {
+    let text = changed("periods   = 1", "periodes  = 1");
+    refused(&text, &[&line(&text, "periodes"), "periodes", "did you mean `periods`?"]);
+    let text = changed("sigma = 1.5", "sgima = 1.5");
+    refused(&text, &[&line(&text, "sgima"), "study[0].model.sgima", "did you mean `sigma`?"]);
+    let text = changed("amplitude = 1.0", "amplitud = 1.0");
+    refused(&text, &["study[0].input.amplitud", "did you mean `amplitude`?"]);
+}
+
+#[test]
+fn an_unknown_solver_is_refused_with_the_near_miss() {
+    let text = changed("\"dopri5\"", "\"dorpi5\"");
+    refused(
+        &text,
+        &[&line(&text, "solvers "), "study[0].solvers", "`dorpi5`", "did you mean `dopri5`?"],
+    );
+    let text = changed("\"dopri5\"", "\"@implict\"");
+    refused(&text, &["study[0].solvers", "did you mean `@implicit`?"]);
+}
+
+#[test]
+fn other_unknown_names_are_refused_with_the_near_miss() {
+    let text = changed("name = \"dahl\"", "name = \"dahll\"");
+    refused(&text, &["study[0].model.name", "did you mean `dahl`?"]);
+    let text = changed("shape = \"sine\"", "shape = \"sin\"");
+    refused(&text, &["study[0].input.shape", "did you mean `sine`?"]);
+    let text = changed("kind        = \"work_precision\"", "kind = \"work_precison\"");
+    refused(&text, &["figure[0].kind", "did you mean `work_precision`?"]);
+    let text = changed("corners   = [\"restart\"]", "corners = [\"restarts\"]");
+    refused(&text, &["study[0].corners", "did you mean `restart`?"]);
+}
+
+#[test]
+fn an_empty_sweep_is_refused() {
+    let text = changed("gamma = [1.0, 2.0]", "gamma = []");
+    refused(&text, &[&line(&text, "sweep "), "study[0].sweep.gamma", "an empty list"]);
+}
+
+#[test]
+fn impossible_steps_are_refused() {
+    for (step, shown) in
+        [("0", "0.0"), ("1e-300", "1e-300"), ("-8", "-8.0"), ("1e9", "1000000000.0")]
+    {
+        let text = changed("steps     = [33, 65]", &format!("steps = [33, {step}]"));
+        refused(&text, &[&line(&text, "steps "), "study[0].steps", shown, "whole number"]);
+    }
+}
+
+#[test]
+fn a_toml_of_ten_megabytes_is_refused() {
+    let text = format!("{}\n# {}", small("\"rk4\""), "x".repeat(10 << 20));
+    refused(&text, &["wrong.toml:1:", "bytes", "at most"]);
+}
+
+#[test]
+fn nesting_a_hundred_thousand_deep_is_refused() {
+    let text = format!("deep = {}{}\n", "[".repeat(100_000), "]".repeat(100_000));
+    refused(&text, &["wrong.toml:1:"]);
+    let text = format!("deep = {}1{}\n", "{ a = ".repeat(100_000), "}".repeat(100_000));
+    refused(&text, &["wrong.toml:1:"]);
+}
+
+#[test]
+fn a_broken_toml_is_refused_at_its_line() {
+    let text = changed("periods   = 1", "periods   = ");
+    refused(&text, &[&line(&text, "periods   =")]);
+    let project = Project::new(&[]);
+    std::fs::write(project.path().join("experiments/wrong.toml"), [0x74, 0xff, 0xfe]).unwrap();
+    let ran = project.run(&["reproduce", "wrong"]);
+    assert_eq!(ran.code, Some(4), "{ran:?}");
+    assert!(ran.err.contains("UTF-8"), "{}", ran.err);
+}
+
+#[test]
+fn an_unknown_measure_in_a_text_is_refused() {
+    let text = REAL.replacen("{fig02.speed-at-zero-force}", "{fig02.sped-at-zero-force}", 1);
+    refused(&text, &["did you mean `fig02.speed-at-zero-force`?"]);
+}
+
+#[test]
+fn one_wrong_experiment_keeps_all_from_running() {
+    let wrong = changed("f_c = 0.75", "f_c = 0");
+    let project = Project::new(&[("a.toml", &small("\"rk4\"")), ("b.toml", &wrong)]);
+    let ran = project.run(&["reproduce"]);
+    assert_eq!(ran.code, Some(4), "{ran:?}");
+    assert!(project.files("reports").is_empty() && project.files("target").is_empty());
+}
+
+#[test]
+fn an_experiments_name_that_is_no_name_is_a_usage_error() {
+    let project = Project::new(&[("small.toml", &small("\"rk4\""))]);
+    for name in ["../../x", "/etc/passwd", "", "smal", "small.toml", "small/../small", "ſmall"] {
+        let before = project.files("");
+        let ran = project.run(&["reproduce", name]);
+        assert_eq!(ran.code, Some(2), "`{name}`: {ran:?}");
+        assert_eq!(common::difference(&before, &project.files("")), None);
+    }
+    assert!(project.run(&["reproduce", "smal"]).err.contains("did you mean `small`?"));
+    for arguments in [
+        vec!["reproduce", "--threads", "0"],
+        vec!["reproduce", "--watchdog", "-1"],
+        vec!["reproduce", "--check", "--quick"],
+        vec!["frobnicate"],
+        vec!["show", "../../x"],
+        vec!["new", "experiment", "../x"],
+        vec!["new", "experiment", "small"],
+    ] {
+        assert_eq!(project.run(&arguments).code, Some(2), "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_new_experiment_runs_as_it_stands() {
+    let project = Project::new(&[]);
+    assert_eq!(project.run(&["new", "experiment", "mine"]).code, Some(0));
+    let ran = project.run(&["reproduce", "mine"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    assert!(project.path().join("reports/index.html").is_file());
+}
