@@ -2,6 +2,7 @@
 
 use crate::escape;
 use crate::number::{self, NONE};
+use crate::prose;
 use crate::select::{SOLVED, by_solver, distinct};
 use record::{CaseRow, OrderRow, Summary};
 
@@ -12,22 +13,20 @@ pub(crate) struct Grid {
     pub(crate) head: Vec<String>,
     /// The rows.
     pub(crate) rows: Vec<Vec<String>>,
+    /// What it is, for the page's style.
+    pub(crate) class: &'static str,
     /// How many of the first columns are words and not numbers.
     pub(crate) words: usize,
 }
 
 impl Grid {
-    fn new(head: &[&str], words: usize, rows: Vec<Vec<String>>) -> Self {
-        Self { head: head.iter().map(|text| (*text).to_owned()).collect(), rows, words }
-    }
-
     /// As HTML, in a box that scrolls by itself.
     pub(crate) fn html(&self, label: &str) -> String {
-        let lines = |text: &str| escape::html(text).replace('\n', "<br>");
+        let lines = |text: &str| prose::html(text).replace('\n', "<br>");
         let mut out = format!(
-            "<div class=\"box\" role=\"region\" tabindex=\"0\" aria-label=\"{}\"><table class=\"w{}\"><thead><tr>",
+            "<div class=\"box\" role=\"region\" tabindex=\"0\" aria-label=\"{}\"><table class=\"{}\"><thead><tr>",
             escape::html(label),
-            self.words
+            self.class
         );
         for cell in &self.head {
             put!(out, "<th scope=\"col\">{}", lines(cell));
@@ -51,7 +50,7 @@ impl Grid {
         let line = |cells: &[String]| {
             let cells: Vec<String> = cells
                 .iter()
-                .map(|cell| cell.split('\n').map(escape::markdown).collect::<Vec<_>>().join("<br>"))
+                .map(|cell| cell.split('\n').map(prose::markdown).collect::<Vec<_>>().join("<br>"))
                 .collect();
             format!("| {} |\n", cells.join(" | "))
         };
@@ -69,12 +68,17 @@ pub(crate) fn measures(summary: &Summary) -> Option<Grid> {
         .iter()
         .map(|row| {
             let value = number::with_error(row.value, Some(row.error), &row.unit);
-            let (method, second) = (row.method.clone(), row.second.clone());
-            vec![row.id.clone(), row.what.clone(), value, method, second, row.code.clone()]
+            let mut how = vec![row.method.clone()];
+            if !row.second.is_empty() {
+                how.push(format!("against {}", row.second));
+            }
+            how.push(row.code.clone());
+            how.retain(|part| !part.is_empty());
+            vec![format!("{}\n{}", row.what, row.id), value, how.join("\n")]
         })
         .collect();
-    let head = ["id", "what", "value", "method", "second way", "code"];
-    (!rows.is_empty()).then(|| Grid::new(&head, 6, rows))
+    let head = ["quantity", "value", "how"].map(str::to_owned).to_vec();
+    (!rows.is_empty()).then_some(Grid { head, rows, class: "measures", words: 3 })
 }
 
 /// The observed orders of one study: `restarted / ignored` for each sweep point.
@@ -103,7 +107,7 @@ pub(crate) fn orders(summary: &Summary, study: &str) -> Option<Grid> {
     }
     let mut head = vec!["solver".to_owned(), "declared".to_owned(), "against".to_owned()];
     head.extend(points.iter().map(|point| column_title(point)));
-    (!rows.is_empty()).then_some(Grid { head, rows, words: 3 })
+    (!rows.is_empty()).then_some(Grid { head, rows, class: "orders", words: 3 })
 }
 
 fn column_title(point: &str) -> String {
@@ -125,7 +129,7 @@ pub(crate) fn best(summary: &Summary, study: &str) -> Option<Grid> {
         .collect();
     let head = std::iter::once("solver".to_owned());
     let head = head.chain(points.iter().map(|point| column_title(point))).collect();
-    (!rows.is_empty()).then_some(Grid { head, rows, words: 1 })
+    (!rows.is_empty()).then_some(Grid { head, rows, class: "best", words: 1 })
 }
 
 fn best_cell(cases: &[&CaseRow]) -> String {
@@ -165,7 +169,7 @@ pub(crate) fn cases(summary: &Summary, study: &str, point: &str) -> Grid {
         "accepted",
         "rejected",
     ];
-    Grid::new(&head, 4, rows)
+    Grid { head: head.map(str::to_owned).to_vec(), rows, class: "cases", words: 4 }
 }
 
 fn order_of(summary: &Summary, case: &CaseRow) -> Option<f64> {
@@ -194,6 +198,24 @@ fn case_row(case: &CaseRow, order: Option<f64>) -> Vec<String> {
     row
 }
 
+/// What the signs behind a status mean, and why, if a case of the study has one.
+pub(crate) fn signs(summary: &Summary, study: &str) -> Option<String> {
+    let own = summary.cases.iter().filter(|case| case.study == study);
+    let reasons = distinct(own.map(|case| case.irreproducible.as_str()));
+    let why: Vec<&str> = reasons
+        .into_iter()
+        .filter(|reason| !reason.is_empty())
+        .map(|reason| match summary.about(&format!("irreproducible {reason}")) {
+            "" => reason,
+            told => told,
+        })
+        .collect();
+    (!why.is_empty()).then(|| {
+        let what = "† another processor gives other numbers, ‡ or even another ending.";
+        format!("{what} {}", why.join(" "))
+    })
+}
+
 /// How a case ended, how far it got, and what it said.
 fn status(case: &CaseRow) -> String {
     let mut text = if case.status == SOLVED {
@@ -201,10 +223,13 @@ fn status(case: &CaseRow) -> String {
     } else {
         format!("✗ {} at {}\u{202f}%", case.status, number::decimal(case.reached * 100.0, 1))
     };
-    for (name, more) in [("", &case.detail), ("not reproducible: ", &case.irreproducible)] {
-        if !more.is_empty() {
-            put!(text, "\n{name}{more}");
-        }
+    match (case.irreproducible.is_empty(), case.any_status) {
+        (_, true) => text.push_str(" ‡"),
+        (false, false) => text.push_str(" †"),
+        (true, false) => {}
+    }
+    if !case.detail.is_empty() {
+        put!(text, "\n{}", case.detail);
     }
     text
 }
@@ -215,8 +240,9 @@ mod tests {
 
     #[test]
     fn a_table_keeps_its_columns_whatever_stands_in_it() {
-        let hostile = vec!["<b>|`x`".to_owned(), "two\nlines".to_owned()];
-        let grid = Grid::new(&["a", "b"], 1, vec![hostile]);
+        let cells = |a: &str, b: &str| vec![a.to_owned(), b.to_owned()];
+        let rows = vec![cells("<b>|`x`", "two\nlines")];
+        let grid = Grid { head: cells("a", "b"), rows, class: "best", words: 1 };
         assert_eq!(
             grid.markdown(),
             "| a | b |\n|---|---:|\n| &lt;b&gt;\\|\\`x\\` | two<br>lines |\n"

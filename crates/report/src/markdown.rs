@@ -34,7 +34,7 @@ pub(crate) fn front(chapters: &[Chapter]) -> String {
         let (folder, title) = (&chapter.folder, markdown(chapter.title()));
         put!(out, "\n### [{title}]({folder}/README.md)\n\n");
         for figure in &chapter.figures {
-            let title = markdown(&figure.row.title);
+            let title = prose::markdown(&figure.row.title);
             put!(out, "- [{title}]({folder}/{}.svg)\n", figure.name);
         }
     }
@@ -48,7 +48,7 @@ fn claim_row(chapter: &Chapter, claim: &ClaimRow) -> String {
     }
     let mut why = vec![prose::markdown(&claim.why), prose::markdown(&claim.how)];
     if let Some(figure) = chapter.shown(claim) {
-        let title = markdown(&figure.row.title);
+        let title = prose::markdown(&figure.row.title);
         why.push(format!("[{title}]({}/{}.svg)", chapter.folder, figure.name));
     }
     why.push(code(&claim.code, "../"));
@@ -134,7 +134,7 @@ fn picture(figure: &Figure) -> String {
     let row = figure.row;
     format!(
         "\n### {title}\n\n![{description}]({name}.svg)\n{caption}\n[Data]({name}.csv)\n",
-        title = markdown(&row.title),
+        title = prose::markdown(&row.title),
         description = markdown(&row.description),
         name = figure.name,
         caption = paragraphs(&row.caption),

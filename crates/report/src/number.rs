@@ -160,6 +160,9 @@ pub(crate) fn with_error(value: f64, error: Option<f64>, of: &str) -> String {
     let Some(error) = error.filter(|e| e.is_finite() && *e >= 0.0) else {
         return format!("{}{unit}", short(value));
     };
+    if value == 0.0 && error >= ROUND_OFF {
+        return format!("0 ± {}{unit}", significant(error, 1));
+    }
     if error < ROUND_OFF && (value == 0.0 || value.abs() > 1e-10) {
         return format!("{}{unit}, error <\u{a0}10⁻¹³", trimmed(value, 10));
     }
@@ -233,6 +236,11 @@ pub(crate) fn symbol(name: &str) -> String {
     }
 }
 
+/// A text with the names of Greek letters as letters: `sigma = 1.5; sigma_0 = 2` as `σ = 1.5; σ₀ = 2`.
+pub(crate) fn greek(text: &str) -> String {
+    text.split(' ').map(symbol).collect::<Vec<_>>().join(" ")
+}
+
 const GREEK: &[(&str, &str)] = &[
     ("alpha", "α"),
     ("beta", "β"),
@@ -276,6 +284,7 @@ mod tests {
             (0.75, None, "N", "0.75\u{202f}N"),
             (1e300, Some(1e-300), "", "10³⁰⁰, error <\u{a0}10⁻¹³"),
             (f64::NAN, Some(1.0), "", "not a number"),
+            (0.0, Some(1e-12), "N", "0 ± 10⁻¹²\u{202f}N"),
             (0.0, Some(0.0), "", "0, error <\u{a0}10⁻¹³"),
             (1.0, Some(f64::INFINITY), "", "1"),
         ];
@@ -319,6 +328,7 @@ mod tests {
         assert_eq!(point("gamma=0.250"), "γ = 0.25");
         assert_eq!(point("sigma_0=1e5, v_s=0.001"), "σ₀ = 10⁵, v_s = 0.001");
         assert_eq!(point(""), "");
+        assert_eq!(greek("dahl: f_c = 0.75; sigma = 1.5"), "dahl: f_c = 0.75; σ = 1.5");
         assert_eq!(point_value("gamma=1.5"), Some(1.5));
         assert_eq!(printed(Some(2.6), Some(2), "J"), "2.6\u{202f}J");
         assert_eq!(printed(Some(2.0), Some(3), "1"), "2.00");

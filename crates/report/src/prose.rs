@@ -1,31 +1,34 @@
 //! The little notation that texts of experiments use: `F_C`, `w^(1−γ)`, `*words*`.
 //! It is recognised before anything is escaped, so that all else stays plain text.
 
-use crate::escape;
+use crate::{escape, number};
+
+/// No exponent and no emphasis is longer; hostile text cannot nest them deeper than this.
+const LONGEST: usize = 90;
 
 /// A piece of a text, and the element it stands in; none for plain text.
 type Piece = (Option<&'static str>, String);
 
 /// As HTML.
 pub(crate) fn html(text: &str) -> String {
-    write(text, escape::html)
+    write(text, &mut escape::html)
 }
 
 /// As Markdown, in one line.
 pub(crate) fn markdown(text: &str) -> String {
     let mut begins = true;
-    write(&escape::one_line(text), |piece| {
+    write(&escape::one_line(text), &mut |piece| {
         escape::markdown_piece(piece, std::mem::take(&mut begins))
     })
 }
 
-fn write(text: &str, mut escape: impl FnMut(&str) -> String) -> String {
+fn write(text: &str, escape: &mut dyn FnMut(&str) -> String) -> String {
     let mut out = String::new();
     for (element, piece) in pieces(text) {
-        let piece = escape(&piece);
         match element {
-            None => out.push_str(&piece),
-            Some(name) => put!(out, "<{name}>{piece}</{name}>"),
+            None => out.push_str(&escape(&piece)),
+            // An exponent can hold indices; it is shorter than what it stands in, so this ends.
+            Some(name) => put!(out, "<{name}>{}</{name}>", write(&piece, escape)),
         }
     }
     out
@@ -35,6 +38,11 @@ fn pieces(text: &str) -> Vec<Piece> {
     let chars: Vec<char> = text.chars().collect();
     let (mut all, mut plain, mut i) = (Vec::new(), String::new(), 0);
     while i < chars.len() {
+        if let Some((end, number)) = power(&chars, i) {
+            plain.push_str(&number);
+            i = end;
+            continue;
+        }
         let found = match chars[i] {
             '_' => subscript(&chars, i).map(|(end, inner)| ("sub", end, inner)),
             '^' => exponent(&chars, i).map(|(end, inner)| ("sup", end, inner)),
@@ -68,7 +76,13 @@ fn subscript(chars: &[char], at: usize) -> Option<(usize, String)> {
 /// What is raised: a bracket's inside or one short word.
 fn exponent(chars: &[char], at: usize) -> Option<(usize, String)> {
     if chars.get(at + 1) == Some(&'(') {
-        let inner: String = chars[at + 2..].iter().take_while(|c| !"()\n".contains(**c)).collect();
+        let mut depth = 0;
+        let inside = |c: &&char| {
+            depth += i32::from(**c == '(') - i32::from(**c == ')');
+            depth > 0 && **c != '\n'
+        };
+        let inner: String =
+            chars[at + 1..].iter().take(LONGEST).take_while(inside).skip(1).collect();
         let end = at + 2 + inner.chars().count();
         return (chars.get(end) == Some(&')') && !inner.is_empty()).then_some((end + 1, inner));
     }
@@ -78,13 +92,33 @@ fn exponent(chars: &[char], at: usize) -> Option<(usize, String)> {
     (1..=4).contains(&length).then_some((at + 1 + length, inner))
 }
 
+/// A number in computer notation: `2e-16` as `2 × 10⁻¹⁶`.
+fn power(chars: &[char], at: usize) -> Option<(usize, String)> {
+    let edge = |c: Option<&char>| !c.is_some_and(|c| c.is_alphanumeric() || "._-−".contains(*c));
+    if !chars[at].is_ascii_digit() || !(at == 0 || edge(chars.get(at - 1))) {
+        return None;
+    }
+    let number = |c: &&char| c.is_ascii_digit() || "e.-+".contains(**c);
+    let word: String = chars[at..].iter().take_while(number).collect();
+    let (mantissa, exponent) = word.trim_end_matches(['.', '-', '+']).split_once('e')?;
+    let end = at + mantissa.len() + 1 + exponent.len();
+    let value: f64 = mantissa.parse().ok()?;
+    let power = number::power_of_ten(exponent.parse().ok()?);
+    let text = match value {
+        0.0 => "0".to_owned(),
+        1.0 => power,
+        _ => format!("{mantissa} × {power}"),
+    };
+    (!chars.get(end).is_some_and(|c| c.is_alphanumeric())).then_some((end, text))
+}
+
 /// Words between two stars that touch them.
 fn emphasis(chars: &[char], at: usize) -> Option<(usize, String)> {
-    let inner: String = chars[at + 1..].iter().take_while(|c| **c != '*').collect();
+    let inner: String = chars[at + 1..].iter().take(LONGEST).take_while(|c| **c != '*').collect();
     let length = inner.chars().count();
     let closed = chars.get(at + 1 + length) == Some(&'*');
     let touches = !inner.starts_with(char::is_whitespace) && !inner.ends_with(char::is_whitespace);
-    (closed && touches && (1..=80).contains(&length)).then_some((at + 2 + length, inner))
+    (closed && touches && length > 0).then_some((at + 2 + length, inner))
 }
 
 #[cfg(test)]
@@ -97,7 +131,18 @@ mod tests {
         assert_eq!(html("w^(1−γ) + |x|^γ"), "w<sup>1−γ</sup> + |x|<sup>γ</sup>");
         assert_eq!(html("tr_bdf2, ode_solvers, 2 * 3 * 4"), "tr_bdf2, ode_solvers, 2 * 3 * 4");
         assert_eq!(html("see *Error*, **b**"), "see <em>Error</em>, *<em>b</em>*");
+        assert_eq!(html("e^((σ/F_C)(u − 1))"), "e<sup>(σ/F<sub>C</sub>)(u − 1)</sup>");
+        assert_eq!(
+            html("2e-16 N, 1e-12. 0e0; fig-1e5 3edges"),
+            "2 × 10⁻¹⁶ N, 10⁻¹². 0; fig-1e5 3edges"
+        );
         assert_eq!(html("<^<b>_C"), "&lt;^&lt;b&gt;_C");
+    }
+
+    #[test]
+    fn a_hostile_nest_of_exponents_ends() {
+        let nest = "^(".repeat(100_000) + &")".repeat(100_000);
+        assert!(html(&nest).matches("<sup>").count() < 100_000);
     }
 
     #[test]

@@ -37,7 +37,7 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
 fn write_study(out: &mut String, study: &StudyRow) {
     let name = html(&study.study);
     put!(out, "<h3>{name}</h3>\n{}", paragraphs(&study.text));
-    let mut told = vec![("Model", study.model.clone()), ("Input", study.input.clone())];
+    let mut told = vec![("Model", number::greek(&study.model)), ("Input", study.input.clone())];
     if !study.reference.is_empty() {
         let error = study.reference_error.map_or_else(String::new, |error| {
             format!(", relative rounding error {}", number::error(Some(error)))
@@ -72,7 +72,7 @@ fn write_figure(out: &mut String, chapter: &Chapter, figure: &Figure) {
         "</div>\n<figcaption><b>{title}</b> {caption}<span class=\"sr\"> {description}</span>\n\
          <small><a href=\"{folder}/{name}.svg\">SVG</a> · \
          <a href=\"{folder}/{name}.csv\">data</a></small></figcaption></figure>\n",
-        title = html(&row.title),
+        title = prose::html(&row.title),
         caption = prose::html(&row.caption),
         description = html(&row.description),
         folder = chapter.folder,
@@ -111,6 +111,9 @@ fn write_errors(out: &mut String, chapter: &Chapter, study: &str) {
             html(&title),
             table.html(&format!("Cases of {study}{title}"))
         );
+    }
+    if let Some(signs) = grid::signs(summary, study) {
+        put!(out, "<p><small>{}</small></p>\n", prose::html(&signs));
     }
     let folder = &chapter.folder;
     put!(out, "<p><a href=\"{folder}/cases.csv\">All cases as CSV</a></p>\n");

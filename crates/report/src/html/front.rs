@@ -27,12 +27,12 @@ pub(super) fn write(out: &mut String, chapters: &[Chapter]) {
         out.push_str(
             "<section>\n<h2 id=\"claims\">Claims</h2>\n<table class=\"claims\"><thead><tr>\
              <th scope=\"col\">Verdict<th scope=\"col\">The paper says<th scope=\"col\">Printed\
-             <th scope=\"col\">Ours<th scope=\"col\">Why</thead><tbody>\n",
+             <th scope=\"col\">Ours</thead>\n",
         );
         for chapter in chapters {
             chapter.summary.claims.iter().for_each(|claim| write_claim(out, chapter, claim));
         }
-        out.push_str("</tbody></table>\n</section>\n");
+        out.push_str("</table>\n</section>\n");
     }
     write_thumbnails(out, chapters);
 }
@@ -52,18 +52,18 @@ fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
         more.push(format!("Decided by {}", prose::html(&claim.how)));
     }
     if let Some(figure) = chapter.shown(claim) {
-        more.push(format!("<a href=\"#{}\">{}</a>", figure.id, html(&figure.row.title)));
+        more.push(format!("<a href=\"#{}\">{}</a>", figure.id, prose::html(&figure.row.title)));
     }
     if !claim.code.is_empty() {
         more.push(code(&claim.code));
     }
     put!(
         out,
-        "<tr id=\"claim--{id}\"><td data-label=\"Verdict\"><span class=\"verdict {class}\">\
+        "<tbody id=\"claim--{id}\"><tr><td rowspan=\"2\"><span class=\"verdict {class}\">\
          <b aria-hidden=\"true\">{sign}</b>{verdict}</span>{note}\
-         <td data-label=\"The paper says\">{says}<small>{place} · {name}</small>\
+         <td class=\"says\">{says}<small>{place} · {name}</small>\
          <td data-label=\"Printed\" class=\"n\">{printed}<td data-label=\"Ours\" class=\"n\">{ours}\
-         <td data-label=\"Why\">{why}<small>{more}</small>\n",
+         <tr><td colspan=\"3\" class=\"why\"><p>{why}<small>{more}</small></tbody>\n",
         id = crate::escape::slug(&claim.id),
         sign = sign(&claim.verdict),
         verdict = html(&claim.verdict),
@@ -85,7 +85,7 @@ fn write_thumbnails(out: &mut String, chapters: &[Chapter]) {
     for figure in chapters.iter().flat_map(|chapter| &chapter.figures) {
         let drawing = &figure.drawing;
         let small = thumbnail(&drawing.panels, drawing.columns, |n| format!("{}-{n}", figure.id));
-        let (id, title) = (&figure.id, html(&figure.row.title));
+        let (id, title) = (&figure.id, prose::html(&figure.row.title));
         put!(out, "<li><a href=\"#{id}\">{small}<span>{title}</span></a>\n");
     }
     out.push_str("</ul>\n</section>\n");
