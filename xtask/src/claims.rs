@@ -15,6 +15,36 @@ pub(crate) fn claims(root: &Path, as_json: bool) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
+/// Prints the table of claims that the README shows.
+pub(crate) fn markdown(root: &Path) -> Result<Exit, Failure> {
+    output::line(table(&committed(root, &root.join("reports"))?).trim_end());
+    Ok(Exit::Done)
+}
+
+/// The claims as a Markdown table, each linked to its place in the report.
+pub(crate) fn table(summaries: &[Summary]) -> String {
+    let mut text =
+        "| claim | the paper | printed | ours | verdict |\n|---|---|---|---|---|\n".to_owned();
+    for summary in summaries {
+        for row in &summary.claims {
+            let unit = if row.unit == "1" { "" } else { &row.unit };
+            let number = |v: Option<f64>| {
+                v.map_or(String::new(), |v| format!("{} {unit}", screen::short(v)))
+            };
+            let says = row.says.replace('|', "\\|");
+            let (printed, ours) = (number(row.printed), number(row.ours));
+            let id = format!("[`{}`](reports/{}/README.md)", row.id, summary.name);
+            text += &format!(
+                "| {id} | {says} | {} | {} | {} |\n",
+                printed.trim(),
+                ours.trim(),
+                row.verdict
+            );
+        }
+    }
+    text
+}
+
 /// The summaries in `reports` of all experiments that have one, in the order of their names.
 pub(crate) fn committed(root: &Path, reports: &Path) -> Result<Vec<Summary>, Failure> {
     let mut summaries = Vec::new();

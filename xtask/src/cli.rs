@@ -41,6 +41,9 @@ pub(crate) enum Command {
         /// As JSON.
         #[arg(long)]
         json: bool,
+        /// As the table in the README.
+        #[arg(long, conflicts_with = "json")]
+        markdown: bool,
     },
     /// Start something new.
     New {

@@ -80,7 +80,7 @@ fn text(value: &serde_json::Value, depth: usize) {
     };
     let Some(fields) = value.as_object() else { return };
     for (key, field) in fields {
-        match field.as_array() {
+        match field.as_array().map(Vec::as_slice) {
             Some(items) if items.iter().any(serde_json::Value::is_object) => {
                 output::line(&format!("{indent}{key}:"));
                 for item in items {
@@ -88,6 +88,7 @@ fn text(value: &serde_json::Value, depth: usize) {
                     output::line("");
                 }
             }
+            Some([]) => {}
             _ => output::line(&format!("{indent}{key}: {}", plain(field))),
         }
     }

@@ -38,7 +38,8 @@ fn run(cli: &Cli) -> Result<Exit, Failure> {
         Command::Reproduce(arguments) => reproduce::reproduce(&root, arguments),
         Command::List { json } => list::list(&root, *json),
         Command::Show { name, json } => list::show(&root, name, *json),
-        Command::Claims { json } => claims::claims(&root, *json),
+        Command::Claims { markdown: true, .. } => claims::markdown(&root),
+        Command::Claims { json, .. } => claims::claims(&root, *json),
         Command::New { what } => new::new(&root, what),
         Command::Tidy { json } => tidy::tidy(&root, *json),
     }

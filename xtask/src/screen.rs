@@ -41,7 +41,8 @@ fn claim(row: &ClaimRow, width: usize, colours: bool) -> String {
     format!("{verdict} {:<width$}  {numbers}", row.id).trim_end().to_owned()
 }
 
-fn short(value: f64) -> String {
+/// Four significant digits; two where a power of ten is needed.
+pub(crate) fn short(value: f64) -> String {
     if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
         let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
         format!("{rounded}")

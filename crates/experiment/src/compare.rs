@@ -52,7 +52,7 @@ pub(crate) fn record(
 ) -> CaseRecord {
     let study = &plan.studies[case.study];
     let errors = errors(&run.trajectory, motion, reference, study.span);
-    let norms = Norms::of(&run.trajectory.t, &errors, motion, study.period);
+    let norms = Norms::of(&run.trajectory.t, &errors, &kinks(motion, reference), study.period);
     let (status, detail, at) = match &run.outcome {
         Outcome::Solved => ("solved".to_owned(), String::new(), study.span),
         Outcome::Failed { at, why } => (why.name().to_owned(), detail(why), *at),
@@ -105,6 +105,13 @@ fn errors(
     trajectory.t.iter().enumerate().map(&mut error).collect()
 }
 
+/// The kinks of the exact solution: corners of the input, and where a force arrives at its limit.
+fn kinks(motion: &PrescribedMotion, reference: &dyn Reference) -> Vec<f64> {
+    let mut kinks = [motion.corners().to_vec(), reference.kinks()].concat();
+    kinks.sort_by(f64::total_cmp);
+    kinks
+}
+
 #[derive(Debug, Default)]
 struct Norms {
     last: Option<f64>,
@@ -115,13 +122,13 @@ struct Norms {
 
 impl Norms {
     /// The norms of the errors at times `t`; none where there is nothing finite to take one of.
-    fn of(t: &[f64], errors: &[f64], motion: &PrescribedMotion, period: f64) -> Self {
+    fn of(t: &[f64], errors: &[f64], kinks: &[f64], period: f64) -> Self {
         let finite = |e: f64| e.is_finite().then_some(e);
         let largest = |e: &mut dyn Iterator<Item = f64>| e.reduce(f64::max).and_then(finite);
         let near = |t: f64| {
-            let next = motion.corners().partition_point(|corner| *corner < t);
-            let around = motion.corners()[next.saturating_sub(1)..].iter().take(2);
-            around.into_iter().any(|corner| (corner - t).abs() < NEAR_A_KINK * period)
+            let next = kinks.partition_point(|kink| *kink < t);
+            let mut around = kinks[next.saturating_sub(1)..].iter().take(2);
+            around.any(|kink| (kink - t).abs() < NEAR_A_KINK * period)
         };
         let squares: f64 = (1..t.len())
             .map(|i| (t[i] - t[i - 1]) * 0.5 * (errors[i].powi(2) + errors[i - 1].powi(2)))

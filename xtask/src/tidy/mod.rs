@@ -5,6 +5,7 @@ mod lists;
 mod sources;
 
 use crate::{
+    claims,
     exit::{Exit, Failure},
     output,
 };
@@ -72,6 +73,13 @@ fn readme(root: &Path) -> Result<Vec<String>, Failure> {
         if !readme.lines().take(40).any(|line| line.starts_with(command)) {
             breaches.push(format!("README.md: `{command}` does not stand in its first 40 lines"));
         }
+    }
+    let table = claims::table(&claims::committed(root, &root.join("reports"))?);
+    if !readme.contains(&table) {
+        breaches.push(
+            "README.md: its table of claims is not what `cargo xtask claims --markdown` prints"
+                .to_owned(),
+        );
     }
     let ci = read(&root.join(".ci/run"))?;
     for command in

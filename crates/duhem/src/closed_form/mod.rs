@@ -15,6 +15,12 @@ pub trait Reference: std::fmt::Debug + Send + Sync {
 
     /// A bound on the rounding in [`Self::state`], in units of the state.
     fn error_bound(&self) -> f64;
+
+    /// Times [s] at which the state has a kink that is not a corner of the input, in order: where a
+    /// force arrives at its limit. None if the model has no such point.
+    fn kinks(&self) -> Vec<f64> {
+        Vec::new()
+    }
 }
 
 /// One closed form of the list.
@@ -119,6 +125,22 @@ impl Arcs {
         let k = inner.partition_point(|corner| *corner <= t);
         let (so_far, whole) = (self.input.u(t) - self.u[k], self.travel(k));
         (k, if so_far * whole < 0.0 { 0.0 } else { so_far })
+    }
+
+    /// The time [s] at which the displacement on arc `k` reaches `so_far` [m], to the last digit.
+    pub(crate) fn time_at(&self, k: usize, so_far: f64) -> f64 {
+        let (mut low, mut high) = (self.times[k], self.times[k + 1]);
+        loop {
+            let middle = low + 0.5 * (high - low);
+            if middle <= low || middle >= high {
+                return middle;
+            }
+            if (self.input.u(middle) - self.u[k]).abs() < so_far.abs() {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
     }
 
     /// Displacement at the start of arc `k` [m].

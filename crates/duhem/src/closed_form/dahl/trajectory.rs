@@ -1,6 +1,6 @@
 //! The force over time.
 
-use super::advance;
+use super::{advance, travel};
 use crate::{
     Dahl, Input, Parameters,
     closed_form::{Arcs, Reference, ReferenceError, check},
@@ -62,5 +62,37 @@ impl Reference for Trajectory {
         let slope = self.dahl.sigma * 2.0_f64.powf(self.dahl.gamma);
         let power = 8.0 * (1.0 + self.dahl.gamma) * f64::EPSILON * self.dahl.f_c;
         arcs * (power + 2.0 * slope * self.arcs.rounding())
+    }
+
+    /// Where F arrives at ±F_C, for γ < 1: there the slope drops to zero, at once for γ = 0.
+    fn kinks(&self) -> Vec<f64> {
+        let arrival = |k: usize| {
+            let whole = self.arcs.travel(k);
+            let way = travel(&self.dahl, self.force[k], self.dahl.f_c.copysign(whole))?;
+            (way != 0.0 && way.abs() < whole.abs()).then(|| self.arcs.time_at(k, way))
+        };
+        (0..self.arcs.len()).filter_map(arrival).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Dahl, Input, Reference, Trajectory};
+
+    #[test]
+    fn the_force_arrives_at_coulomb_where_the_rest_stiffness_takes_it() {
+        // γ = 0: from F = 0 at u = 0 the force is σu and arrives at F_C at u = 0.5 m; from −F_C or F_C it
+        // takes 1 m, from the turn at ±1 m to u = 0.
+        let dahl = Dahl { f_c: 0.75, sigma: 1.5, gamma: 0.0 };
+        let input = Input::sine(1.0, 0.1).unwrap();
+        let period = input.period().unwrap();
+        let kinks = Trajectory::new(&dahl, &input, 0.0, (0.0, period)).unwrap().kinks();
+        let expected = [0.5_f64.asin() / 0.1, 0.5 * period];
+        assert_eq!(kinks.len(), 2, "{kinks:?}");
+        for (kink, expected) in kinks.iter().zip(expected) {
+            assert!((kink - expected).abs() < 1e-12, "arrives at {kink} s, expected {expected} s");
+        }
+        let gentle = Dahl { gamma: 1.0, ..dahl };
+        assert!(Trajectory::new(&gentle, &input, 0.0, (0.0, period)).unwrap().kinks().is_empty());
     }
 }
