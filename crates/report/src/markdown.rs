@@ -80,11 +80,9 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
     out.push_str("\n[All reports](../README.md)\n");
     for study in &summary.studies {
         put!(out, "\n## {}\n{}", markdown(&study.study), paragraphs(&study.text));
-        let told = [
-            ("Model", &study.model),
-            ("Input", &study.input),
-            ("Errors against", &study.reference),
-        ];
+        let model = number::greek(&study.model);
+        let told =
+            [("Model", &model), ("Input", &study.input), ("Errors against", &study.reference)];
         let told: Vec<_> = told.into_iter().filter(|(_, text)| !text.is_empty()).collect();
         if !told.is_empty() {
             out.push('\n');

@@ -62,7 +62,11 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     if digits == 1 && mantissa == 1.0 {
         return power_of_ten(exponent);
     }
-    format!("{} × 10{}", decimal(mantissa, digits.saturating_sub(1)), superscript(exponent))
+    format!(
+        "{}\u{202f}×\u{202f}10{}",
+        decimal(mantissa, digits.saturating_sub(1)),
+        superscript(exponent)
+    )
 }
 
 /// A number as short as it can be written with at most six digits.
@@ -79,12 +83,12 @@ fn parse(value: f64, digits: usize) -> f64 {
 /// Significant digits without zeros at the end.
 fn trimmed(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
-    let (mantissa, rest) = text.split_at(text.find(" ×").unwrap_or(text.len()));
+    let (mantissa, rest) = text.split_at(text.find("\u{202f}×").unwrap_or(text.len()));
     if !mantissa.contains('.') {
         return text;
     }
     match mantissa.trim_end_matches('0').trim_end_matches('.') {
-        "1" if !rest.is_empty() => rest.trim_start_matches(" × ").to_owned(),
+        "1" if !rest.is_empty() => rest.trim_start_matches("\u{202f}×\u{202f}").to_owned(),
         mantissa => format!("{mantissa}{rest}"),
     }
 }
@@ -188,7 +192,7 @@ pub(crate) fn with_error(value: f64, error: Option<f64>, of: &str) -> String {
     }
     let (scale, decimals) = (10f64.powi(-first), usize::try_from(first - last).unwrap_or(0));
     let (value, error) = (decimal(value * scale, decimals), decimal(error * scale, decimals));
-    format!("({value} ± {error}) × 10{}{unit}", superscript(first))
+    format!("({value} ± {error})\u{202f}×\u{202f}10{}{unit}", superscript(first))
 }
 
 fn digits_as_i32(digits: usize) -> i32 {
@@ -273,14 +277,14 @@ mod tests {
     fn a_value_is_written_with_the_digits_its_error_leaves() {
         let table: &[(f64, Option<f64>, &str, &str)] = &[
             (1.554_22, Some(2e-16), "J", "1.55422\u{202f}J, error <\u{a0}10⁻¹³"),
-            (1.554_220_345_098, Some(3e-9), "J", "1.554220345 ± 3 × 10⁻⁹\u{202f}J"),
+            (1.554_220_345_098, Some(3e-9), "J", "1.554220345 ± 3\u{202f}×\u{202f}10⁻⁹\u{202f}J"),
             (2.6, Some(0.05), "J", "2.60 ± 0.05\u{202f}J"),
             (2.6, Some(0.012), "1", "2.600 ± 0.012"),
             (-1.5, Some(0.2), "", "−1.5 ± 0.2"),
             (-0.001, Some(0.2), "N", "0.0 ± 0.2\u{202f}N"),
             (1234.0, Some(30.0), "", "1230 ± 30"),
-            (1.234e-7, Some(5e-10), "m", "(1.234 ± 0.005) × 10⁻⁷\u{202f}m"),
-            (3.2e6, Some(1e5), "Pa", "(3.20 ± 0.10) × 10⁶\u{202f}Pa"),
+            (1.234e-7, Some(5e-10), "m", "(1.234 ± 0.005)\u{202f}×\u{202f}10⁻⁷\u{202f}m"),
+            (3.2e6, Some(1e5), "Pa", "(3.20 ± 0.10)\u{202f}×\u{202f}10⁶\u{202f}Pa"),
             (0.75, None, "N", "0.75\u{202f}N"),
             (1e300, Some(1e-300), "", "10³⁰⁰, error <\u{a0}10⁻¹³"),
             (f64::NAN, Some(1.0), "", "not a number"),
@@ -299,8 +303,8 @@ mod tests {
             (None, "–"),
             (Some(0.0), "<\u{a0}10⁻¹³"),
             (Some(3e-16), "<\u{a0}10⁻¹³"),
-            (Some(3.21e-7), "3.2 × 10⁻⁷"),
-            (Some(9.96e-7), "1.0 × 10⁻⁶"),
+            (Some(3.21e-7), "3.2\u{202f}×\u{202f}10⁻⁷"),
+            (Some(9.96e-7), "1.0\u{202f}×\u{202f}10⁻⁶"),
             (Some(0.0123), "0.012"),
             (Some(1.0), "1.0"),
             (Some(1260.0), "1300"),

@@ -49,12 +49,15 @@ fn pieces(text: &str) -> Vec<Piece> {
             '*' => emphasis(&chars, i).map(|(end, inner)| ("em", end, inner)),
             _ => None,
         };
+        // A minus sign, where a hyphen stands before a number.
+        let digit = chars.get(i + 1).is_some_and(char::is_ascii_digit);
+        let minus = chars[i] == '-' && digit && (i == 0 || " (=[".contains(chars[i - 1]));
         if let Some((element, end, inner)) = found {
             all.push((None, std::mem::take(&mut plain)));
             all.push((Some(element), inner));
             i = end;
         } else {
-            plain.push(chars[i]);
+            plain.push(if minus { '−' } else { chars[i] });
             i += 1;
         }
     }
@@ -107,7 +110,7 @@ fn power(chars: &[char], at: usize) -> Option<(usize, String)> {
     let text = match value {
         0.0 => "0".to_owned(),
         1.0 => power,
-        _ => format!("{mantissa} × {power}"),
+        _ => format!("{mantissa}\u{202f}×\u{202f}{power}"),
     };
     (!chars.get(end).is_some_and(|c| c.is_alphanumeric())).then_some((end, text))
 }
@@ -134,8 +137,9 @@ mod tests {
         assert_eq!(html("e^((σ/F_C)(u − 1))"), "e<sup>(σ/F<sub>C</sub>)(u − 1)</sup>");
         assert_eq!(
             html("2e-16 N, 1e-12. 0e0; fig-1e5 3edges"),
-            "2 × 10⁻¹⁶ N, 10⁻¹². 0; fig-1e5 3edges"
+            "2\u{202f}×\u{202f}10⁻¹⁶ N, 10⁻¹². 0; fig-1e5 3edges"
         );
+        assert_eq!(html("-0.5 N, 2-3, (-1)"), "−0.5 N, 2-3, (−1)");
         assert_eq!(html("<^<b>_C"), "&lt;^&lt;b&gt;_C");
     }
 
