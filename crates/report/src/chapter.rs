@@ -26,6 +26,8 @@ pub(crate) struct Figure<'a> {
     pub(crate) name: String,
     /// Its element in the page.
     pub(crate) id: String,
+    /// How to read it.
+    pub(crate) reads: &'static str,
     /// What is drawn.
     pub(crate) drawing: Drawing,
 }
@@ -46,7 +48,8 @@ impl<'a> Chapter<'a> {
                 return Err(ReportError::SameName { path: format!("{folder}/{name}.svg") });
             }
             let id = format!("{folder}--{name}");
-            figures.push(Figure { row, name, id, drawing: draw(row, summary)? });
+            let (drawing, reads) = draw(row, summary)?;
+            figures.push(Figure { row, name, id, reads, drawing });
         }
         Ok(Self { summary, folder, figures })
     }

@@ -24,6 +24,15 @@ pub(crate) fn markdown(text: &str) -> String {
     markdown_piece(&one_line(text), true)
 }
 
+/// Text in a quoted attribute of an element in Markdown.
+pub(crate) fn markdown_attribute(text: &str) -> String {
+    let entity = |c: char| match c {
+        '[' | ']' | '`' | '*' | '_' | '|' | '$' | '~' => format!("&#{};", u32::from(c)),
+        _ => c.to_string(),
+    };
+    html(&one_line(text)).chars().map(entity).collect()
+}
+
 /// Runs of blanks and line ends as single spaces.
 pub(crate) fn one_line(text: &str) -> String {
     text.split_ascii_whitespace().collect::<Vec<_>>().join(" ")

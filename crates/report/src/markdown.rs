@@ -1,7 +1,7 @@
 //! The same as Markdown, one sentence per line.
 
 use crate::chapter::{Chapter, Figure, count_of_claims, holds, ours, sign};
-use crate::escape::{code_path, markdown, sentences};
+use crate::escape::{code_path, markdown, markdown_attribute, sentences};
 use crate::grid;
 use crate::number;
 use crate::prose;
@@ -34,8 +34,13 @@ pub(crate) fn front(chapters: &[Chapter]) -> String {
         let (folder, title) = (&chapter.folder, markdown(chapter.title()));
         put!(out, "\n### [{title}]({folder}/README.md)\n\n");
         for figure in &chapter.figures {
-            let title = prose::markdown(&figure.row.title);
-            put!(out, "- [{title}]({folder}/{}.svg)\n", figure.name);
+            let (name, title) = (&figure.name, markdown_attribute(&figure.row.title));
+            put!(
+                out,
+                "<a href=\"{folder}/README.md#{}\"><img src=\"{folder}/{name}.svg\" height=\"150\" \
+                 alt=\"{title}\" title=\"{title}\"></a>\n",
+                figure.id
+            );
         }
     }
     out
@@ -131,11 +136,13 @@ fn errors(out: &mut String, chapter: &Chapter, study: &str) {
 fn picture(figure: &Figure) -> String {
     let row = figure.row;
     format!(
-        "\n### {title}\n\n![{description}]({name}.svg)\n{caption}\n[Data]({name}.csv)\n",
+        "\n<a id=\"{id}\"></a>\n\n### {title}\n\n![{description}]({name}.svg)\n{caption}{reads}\n[Data]({name}.csv)\n",
+        id = figure.id,
         title = prose::markdown(&row.title),
         description = markdown(&row.description),
         name = figure.name,
         caption = paragraphs(&row.caption),
+        reads = paragraphs(figure.reads),
     )
 }
 

@@ -16,20 +16,45 @@ use record::{FigureRow, Summary};
 pub struct FigureKind {
     /// The name in a figure's row.
     pub name: &'static str,
+    /// How to read it, said under every caption; empty if it needs no saying.
+    pub reads: &'static str,
     /// Draws the figure of that row from the tables.
     pub draw: fn(&FigureRow, &Summary) -> Result<Drawing, ReportError>,
 }
 
 /// Every kind; a loop and a history are curves under the names their studies use.
 pub const FIGURES: &[FigureKind] = &[
-    FigureKind { name: "collapse", draw: collapse::draw },
-    FigureKind { name: "convergence", draw: convergence::draw },
-    FigureKind { name: "curves", draw: curves::draw },
-    FigureKind { name: "history", draw: curves::draw },
-    FigureKind { name: "loop", draw: curves::draw },
-    FigureKind { name: "orders", draw: orders::draw },
-    FigureKind { name: "tolerance", draw: tolerance::draw },
-    FigureKind { name: "work_precision", draw: work_precision::draw },
+    FigureKind {
+        name: "collapse",
+        reads: "A line breaks where its solver failed; letters in the margin lane are the failed runs.",
+        draw: collapse::draw,
+    },
+    FigureKind {
+        name: "convergence",
+        reads: "The number behind a name is the observed order, and the triangles show slopes to compare with. \
+                Letters in the margin lane are failed runs.",
+        draw: convergence::draw,
+    },
+    FigureKind { name: "curves", reads: "", draw: curves::draw },
+    FigureKind { name: "history", reads: "", draw: curves::draw },
+    FigureKind { name: "loop", reads: "", draw: curves::draw },
+    FigureKind {
+        name: "orders",
+        reads: "The longer the bar, the more order a missed corner costs.",
+        draw: orders::draw,
+    },
+    FigureKind {
+        name: "tolerance",
+        reads: "The number behind a name is the slope of the error against the tolerance: 1 is proportional. \
+                Letters in the margin lane are failed runs.",
+        draw: tolerance::draw,
+    },
+    FigureKind {
+        name: "work_precision",
+        reads: "Grey lines repeat the other panel of the row. \
+                Letters in the margin lane are failed runs, at the work they had spent.",
+        draw: work_precision::draw,
+    },
 ];
 
 /// A drawn figure: its panels, and what is drawn in them.
@@ -62,8 +87,11 @@ pub struct Datum {
     pub note: String,
 }
 
-/// Draws the figure of this row, by its kind.
-pub(crate) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, ReportError> {
+/// Draws the figure of this row, by its kind, and says how to read it.
+pub(crate) fn draw(
+    figure: &FigureRow,
+    summary: &Summary,
+) -> Result<(Drawing, &'static str), ReportError> {
     let kind = FIGURES.iter().find(|kind| kind.name == figure.kind);
     let kind = kind.ok_or_else(|| ReportError::UnknownKind {
         experiment: summary.name.clone(),
@@ -71,7 +99,7 @@ pub(crate) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
         kind: figure.kind.clone(),
         known: FIGURES.iter().map(|kind| kind.name).collect::<Vec<_>>().join(", "),
     })?;
-    (kind.draw)(figure, summary)
+    Ok(((kind.draw)(figure, summary)?, kind.reads))
 }
 
 /// The error for what plotters says.

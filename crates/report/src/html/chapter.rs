@@ -70,11 +70,12 @@ fn write_figure(out: &mut String, chapter: &Chapter, figure: &Figure) {
     put!(
         out,
         "</div>\n<figcaption><b>{title}</b> {caption}<span class=\"sr\"> {description}</span>\n\
-         <small><a href=\"{folder}/{name}.svg\">SVG</a> · \
+         <small>{reads} <a href=\"{folder}/{name}.svg\">SVG</a> · \
          <a href=\"{folder}/{name}.csv\">data</a></small></figcaption></figure>\n",
         title = prose::html(&row.title),
         caption = prose::html(&row.caption),
         description = html(&row.description),
+        reads = html(figure.reads),
         folder = chapter.folder,
         name = figure.name
     );
