@@ -164,7 +164,7 @@ pub(crate) fn with_error(value: f64, error: Option<f64>, of: &str) -> String {
     let Some(error) = error.filter(|e| e.is_finite() && *e >= 0.0) else {
         return format!("{}{unit}", short(value));
     };
-    if value == 0.0 && error >= ROUND_OFF {
+    if value.abs() < 0.05 * error && error >= ROUND_OFF {
         return format!("0 ± {}{unit}", significant(error, 1));
     }
     if error < ROUND_OFF && (value == 0.0 || value.abs() > 1e-10) {
@@ -281,7 +281,7 @@ mod tests {
             (2.6, Some(0.05), "J", "2.60 ± 0.05\u{202f}J"),
             (2.6, Some(0.012), "1", "2.600 ± 0.012"),
             (-1.5, Some(0.2), "", "−1.5 ± 0.2"),
-            (-0.001, Some(0.2), "N", "0.0 ± 0.2\u{202f}N"),
+            (-0.001, Some(0.2), "N", "0 ± 0.2\u{202f}N"),
             (1234.0, Some(30.0), "", "1230 ± 30"),
             (1.234e-7, Some(5e-10), "m", "(1.234 ± 0.005)\u{202f}×\u{202f}10⁻⁷\u{202f}m"),
             (3.2e6, Some(1e5), "Pa", "(3.20 ± 0.10)\u{202f}×\u{202f}10⁶\u{202f}Pa"),
