@@ -4,7 +4,7 @@ mod common;
 
 use common::run::{experiments, tables};
 use record::{CaseRow, OrderRow, Summary};
-use std::sync::OnceLock;
+use std::{collections::BTreeMap, sync::OnceLock};
 
 fn dahl() -> &'static Summary {
     static TABLES: OnceLock<Summary> = OnceLock::new();
@@ -183,6 +183,51 @@ fn explicit_euler_diverges_nowhere_that_dissipation_holds_it() {
     };
     assert_eq!(diverged("fig01"), 0);
     assert!(diverged("fig08") > 0);
+}
+
+/// The fewest evaluations, Jacobians included, with which each solver reaches an error, with restart.
+fn fewest(study: &str, point: &str, error: f64) -> Vec<(u64, &'static str)> {
+    let mut found: BTreeMap<&str, u64> = BTreeMap::new();
+    for row in &dahl().cases {
+        let names =
+            (row.study.as_str(), row.point.as_str(), row.corners.as_str(), row.status.as_str());
+        if names == (study, point, "restart", "solved") && row.error_max.is_some_and(|e| e <= error)
+        {
+            let work = row.evaluations + row.jacobians;
+            let least = found.entry(&row.solver).or_insert(work);
+            *least = work.min(*least);
+        }
+    }
+    let mut found: Vec<_> = found.into_iter().map(|(solver, work)| (work, solver)).collect();
+    found.sort_unstable();
+    found
+}
+
+#[test]
+fn the_winners_are_those_that_the_captions_name() {
+    for point in ["gamma=1", "gamma=1.5", "gamma=2"] {
+        for error in [1e-8, 1e-10] {
+            assert_eq!(
+                fewest("fig01", point, error)[0].1,
+                "dop853-autonomous",
+                "{point}, {error:e}"
+            );
+        }
+        assert!(fewest("fig01", point, 1e-10)[0].0 < 5000, "{point}");
+    }
+    for point in ["gamma=0.25", "gamma=0.5"] {
+        let found = fewest("fig01", point, 1e-6);
+        assert_eq!(found[0].1, "bdf", "{point}: {found:?}");
+        assert!(found.get(1).is_none_or(|next| next.0 > 10 * found[0].0), "{point}: {found:?}");
+    }
+    assert_eq!(fewest("fig01", "gamma=0", 1e-5), []);
+    for error in [1e-3, 1e-4, 1e-6] {
+        let found = fewest("fig08", "", error);
+        let pairs =
+            found.iter().find(|(_, s)| ["dopri5", "tsit45", "dop853-autonomous"].contains(s));
+        assert_eq!(found[0].1, "bdf", "{error:e}: {found:?}");
+        assert!(3 * found[0].0 <= pairs.unwrap().0, "{error:e}: {found:?}");
+    }
 }
 
 #[test]

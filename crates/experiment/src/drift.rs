@@ -95,7 +95,7 @@ fn case(field: &str, row: &Row) -> Tolerance {
         "status" if row.get("any_status") == Some(&Value::Bool(true)) => Ignored,
         "error_final" | "error_max" | "error_l2" | "error_away" => RESULT,
         // They follow from the largest error.
-        "digits" => Ignored,
+        "digits" | "order" => Ignored,
         "reached" => Close { relative: 1e-3, absolute: 0.0 },
         "evaluations" | "jacobians" | "accepted" | "rejected" => WORK,
         _ => Exact,

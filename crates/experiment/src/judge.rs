@@ -72,8 +72,8 @@ fn judge(plan: &Plan, claim: &Claim, measures: &[MeasureRow]) -> Result<ClaimRow
             row.how = found.how;
         }
     }
-    row.verdict =
-        verdict(row.holds, written.under_specified.as_deref(), written.qualitative).to_owned();
+    let verdict = verdict(row.holds, written.under_specified.as_deref(), written.qualitative);
+    verdict.clone_into(&mut row.verdict);
     row.why = fill(&written.why, measures);
     if let Some(reason) = &written.under_specified {
         row.why = format!("{} {}", row.why, reason.trim());

@@ -1,6 +1,6 @@
 //! Observed orders: the slope of the error over a solver's controls.
 
-use crate::plan::Plan;
+use crate::plan::{Plan, corners_name};
 use integrate::{Order, solver};
 use record::{CaseRow, OrderRow};
 use std::collections::BTreeMap;
@@ -10,31 +10,59 @@ const FLOOR: f64 = 1e-12;
 /// The slope is taken over the finest controls, so many of them; the coarse ones are not asymptotic yet.
 const FINEST: usize = 4;
 
-/// One row for each study, point, solver and way of treating corners, in the order of the cases.
-pub(crate) fn orders(plan: &Plan, cases: &[CaseRow]) -> Vec<OrderRow> {
-    let mut groups: BTreeMap<(usize, usize, usize, &str), Vec<&CaseRow>> = BTreeMap::new();
-    for (case, row) in plan.cases.iter().zip(cases) {
+/// Where a case belongs: study, point, solver and way of treating corners, in the order of the plan.
+type Group = (usize, usize, usize, &'static str);
+
+/// The cases of each group by their indices, coarse controls first.
+fn groups(plan: &Plan) -> BTreeMap<Group, Vec<usize>> {
+    let mut groups: BTreeMap<Group, Vec<usize>> = BTreeMap::new();
+    for (i, case) in plan.cases.iter().enumerate() {
         let solvers = &plan.studies[case.study].solvers;
-        let place = solvers.iter().position(|s| s.name == row.solver).unwrap_or(solvers.len());
-        groups.entry((case.study, case.point, place, &row.corners)).or_default().push(row);
+        let place =
+            solvers.iter().position(|s| s.name == case.solver.name).unwrap_or(solvers.len());
+        groups
+            .entry((case.study, case.point, place, corners_name(case.corners)))
+            .or_default()
+            .push(i);
     }
-    groups.values().filter_map(|rows| order(rows)).collect()
+    groups
+}
+
+/// One row for each group, in their order.
+pub(crate) fn orders(plan: &Plan, cases: &[CaseRow]) -> Vec<OrderRow> {
+    let rows = groups(plan).into_values();
+    rows.filter_map(|group| order(&group.iter().map(|i| &cases[*i]).collect::<Vec<_>>())).collect()
+}
+
+/// Writes into each case the slope from its next coarser neighbour.
+pub(crate) fn local(plan: &Plan, cases: &mut [CaseRow]) {
+    for group in groups(plan).into_values() {
+        for pair in group.windows(2) {
+            let ends: Vec<(f64, f64)> =
+                pair.iter().filter_map(|i| point(&cases[*i], against(&cases[*i]))).collect();
+            cases[pair[1]].order = slope(&ends);
+        }
+    }
+}
+
+/// What slopes are taken against. An adaptive method restarts with short steps: on a few pieces that
+/// distorts a slope against its steps.
+fn against(row: &CaseRow) -> &'static str {
+    if row.control == "step" { "steps" } else { "rtol" }
+}
+
+/// The logarithms of the control and the error, if the case was solved above round-off.
+fn point(row: &CaseRow, against: &str) -> Option<(f64, f64)> {
+    let error = row.error_max.filter(|e| *e > FLOOR && row.status == "solved")?;
+    let x = if against == "rtol" { row.value } else { 1.0 / row.accepted as f64 };
+    Some((x.ln(), error.ln()))
 }
 
 fn order(rows: &[&CaseRow]) -> Option<OrderRow> {
     let first = rows.first()?;
     let declared = solver(&first.solver).map(|s| s.order);
-    // An adaptive method restarts with short steps: on a few pieces that distorts a slope against its steps.
-    let against = if matches!(declared, Some(Order::Fixed(_))) { "steps" } else { "rtol" };
-    let mut points: Vec<(f64, f64)> = rows
-        .iter()
-        .filter(|row| row.status == "solved")
-        .filter_map(|row| {
-            let error = row.error_max.filter(|e| *e > FLOOR)?;
-            let x = if against == "rtol" { row.value } else { 1.0 / row.accepted as f64 };
-            Some((x.ln(), error.ln()))
-        })
-        .collect();
+    let against = against(first);
+    let mut points: Vec<(f64, f64)> = rows.iter().filter_map(|row| point(row, against)).collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     points.truncate(FINEST);
     Some(OrderRow {

@@ -46,6 +46,8 @@ pub struct Spec {
 pub struct StudySpec {
     /// Its name.
     pub name: String,
+    /// Its title, for the report.
+    pub title: String,
     /// The physics, for the report.
     #[serde(default)]
     pub text: String,

@@ -12,7 +12,8 @@ use simulation::PrescribedMotion;
 
 /// All tables of the experiment.
 pub fn summary(plan: &Plan, finished: &[Finished]) -> Result<Summary, ExperimentError> {
-    let cases: Vec<CaseRow> = finished.iter().map(|f| f.record.row.clone()).collect();
+    let mut cases: Vec<CaseRow> = finished.iter().map(|f| f.record.row.clone()).collect();
+    orders::local(plan, &mut cases);
     let measures = judge::measures(plan).map_err(ExperimentError::Bug)?;
     let claims = judge::claims(plan, &measures).map_err(ExperimentError::Bug)?;
     let (panels, curves) = curves::curves(plan, finished).map_err(ExperimentError::Bug)?;
@@ -65,6 +66,7 @@ fn study_row(study: &Study) -> Result<StudyRow, String> {
     }
     Ok(StudyRow {
         study: study.name.clone(),
+        title: study.title.clone(),
         model: study.model_text.clone(),
         input: study.input_text.clone(),
         text: folded(&study.text),

@@ -17,6 +17,8 @@ table! {
     pub struct StudyRow {
         /// Its name in the experiment.
         study: String = "study",
+        /// Its title.
+        title: String = "title",
         /// The model with its parameters, as a reader would write them.
         model: String = "model",
         /// The input, as a reader would write it.
@@ -70,6 +72,9 @@ table! {
         error_away: Option<f64> = "away from kinks [1]",
         /// Matching decimal digits: -log10 of the largest error.
         digits: Option<f64> = "digits",
+        /// The slope of the largest error from the next coarser control to this one, as in [`OrderRow`];
+        /// none for the coarsest, at round-off, and next to a failure.
+        order: Option<f64> = "order",
         /// Calls of the right-hand side.
         evaluations: u64 = "evaluations",
         /// Calls of the Jacobian.

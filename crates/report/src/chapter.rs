@@ -4,7 +4,7 @@ use crate::figures::{Drawing, draw};
 use crate::number;
 use crate::plot::file;
 use crate::{Output, ReportError, escape};
-use record::{ClaimRow, FigureRow, Summary};
+use record::{ClaimRow, FigureRow, StudyRow, Summary};
 
 /// An experiment with its figures drawn.
 #[derive(Debug)]
@@ -32,7 +32,17 @@ pub(crate) struct Figure<'a> {
     pub(crate) drawing: Drawing,
 }
 
+/// A study's title, or its name without one.
+pub(crate) fn heading(study: &StudyRow) -> &str {
+    if study.title.is_empty() { &study.study } else { &study.title }
+}
+
 impl<'a> Chapter<'a> {
+    /// The heading of the study of this name.
+    pub(crate) fn heading_of(&self, name: &'a str) -> &'a str {
+        self.summary.studies.iter().find(|s| s.study == name).map_or(name, heading)
+    }
+
     /// Draws the experiment's figures.
     pub(crate) fn new(summary: &'a Summary) -> Result<Self, ReportError> {
         let folder = escape::slug(&summary.name);

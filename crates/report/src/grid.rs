@@ -149,11 +149,7 @@ fn best_cell(cases: &[&CaseRow]) -> String {
 /// Every case of one study at one sweep point.
 pub(crate) fn cases(summary: &Summary, study: &str, point: &str) -> Grid {
     let own = summary.cases.iter().filter(|case| case.study == study && case.point == point);
-    let rows = by_solver(own)
-        .into_iter()
-        .flat_map(|(_, own)| own)
-        .map(|case| case_row(case, order_of(summary, case)))
-        .collect();
+    let rows = by_solver(own).into_iter().flat_map(|(_, own)| own).map(case_row).collect();
     let head = [
         "solver",
         "control",
@@ -172,15 +168,7 @@ pub(crate) fn cases(summary: &Summary, study: &str, point: &str) -> Grid {
     Grid { head: head.map(str::to_owned).to_vec(), rows, class: "cases", words: 4 }
 }
 
-fn order_of(summary: &Summary, case: &CaseRow) -> Option<f64> {
-    let same = |row: &&OrderRow| {
-        (&row.study, &row.point, &row.solver, &row.corners)
-            == (&case.study, &case.point, &case.solver, &case.corners)
-    };
-    summary.orders.iter().find(same).and_then(|row| row.order)
-}
-
-fn case_row(case: &CaseRow, order: Option<f64>) -> Vec<String> {
+fn case_row(case: &CaseRow) -> Vec<String> {
     let control = match case.control.as_str() {
         "step" => format!("{} steps", number::short(case.value)),
         "rtol" => format!("rtol {}", number::short(case.value)),
@@ -191,7 +179,7 @@ fn case_row(case: &CaseRow, order: Option<f64>) -> Vec<String> {
         [case.error_final, case.error_max, case.error_l2, case.error_away].map(number::error),
     );
     row.push(number::maybe(case.digits, 1));
-    row.push(number::maybe(order, 2));
+    row.push(number::maybe(case.order, 2));
     row.push(number::count(case.evaluations));
     row.push(number::count(case.accepted));
     row.push(case.rejected.map_or_else(|| NONE.to_owned(), number::count));

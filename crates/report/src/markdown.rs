@@ -1,6 +1,6 @@
 //! The same as Markdown, one sentence per line.
 
-use crate::chapter::{Chapter, Figure, count_of_claims, holds, ours, sign};
+use crate::chapter::{Chapter, Figure, count_of_claims, heading, holds, ours, sign};
 use crate::escape::{code_path, markdown, markdown_attribute, sentences};
 use crate::grid;
 use crate::number;
@@ -84,7 +84,7 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
     out.push_str(&paragraphs(summary.about("text")));
     out.push_str("\n[All reports](../README.md)\n");
     for study in &summary.studies {
-        put!(out, "\n## {}\n{}", markdown(&study.study), paragraphs(&study.text));
+        put!(out, "\n## {}\n{}", prose::markdown(heading(study)), paragraphs(&study.text));
         let model = number::greek(&study.model);
         let told =
             [("Model", &model), ("Input", &study.input), ("Errors against", &study.reference)];
@@ -112,8 +112,8 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
     out
 }
 
-fn errors(out: &mut String, chapter: &Chapter, study: &str) {
-    let name = markdown(study);
+fn errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
+    let name = prose::markdown(chapter.heading_of(study));
     if let Some(table) = grid::orders(chapter.summary, study) {
         put!(
             out,

@@ -29,7 +29,7 @@ pub(crate) fn tables(path: &Path) -> Summary {
         store: Store::new(Path::new(env!("CARGO_TARGET_TMPDIR")).join("records")),
         fresh: false,
         threads: thread::available_parallelism().map_or(1, usize::from),
-        watchdog: Duration::from_secs(120),
+        watchdog: Duration::from_mins(2),
         stop: &stop,
     };
     let finished = run(&plan, &options, &|_| ()).expect("all cases");

@@ -12,21 +12,27 @@ use duhem::{
     },
 };
 
-const CODE: &str = "crates/experiment/src/checks/dahl.rs";
+/// A check and the place of its code.
+macro_rules! check {
+    ($name:literal, $run:ident) => {
+        Check {
+            name: $name,
+            code: concat!("crates/experiment/src/checks/dahl.rs, ", stringify!($run)),
+            run: $run,
+        }
+    };
+}
 
 /// Corollary 1: equation 17 is the limiting loop, and Theorem 1's equation 10 the same.
-pub(super) const COROLLARY_1: Check = Check { name: "corollary-1", code: CODE, run: corollary_1 };
+pub(super) const COROLLARY_1: Check = check!("corollary-1", corollary_1);
 /// The limiting loop does not depend on F(0).
-pub(super) const LOCAL_MEMORY: Check =
-    Check { name: "local-memory", code: CODE, run: local_memory };
+pub(super) const LOCAL_MEMORY: Check = check!("local-memory", local_memory);
 /// F changes sign after u̇ does.
-pub(super) const FRICTION_LAG: Check =
-    Check { name: "friction-lag", code: CODE, run: friction_lag };
+pub(super) const FRICTION_LAG: Check = check!("friction-lag", friction_lag);
 /// Equation 14 equals equation 11.
-pub(super) const EQUATION_14: Check = Check { name: "equation-14", code: CODE, run: equation_14 };
+pub(super) const EQUATION_14: Check = check!("equation-14", equation_14);
 /// F reaches F_C in finite travel if and only if γ < 1.
-pub(super) const FINITE_SATURATION: Check =
-    Check { name: "finite-saturation", code: CODE, run: finite_saturation };
+pub(super) const FINITE_SATURATION: Check = check!("finite-saturation", finite_saturation);
 
 /// Points at which loops are compared.
 const POINTS: u32 = 400;

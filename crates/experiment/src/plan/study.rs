@@ -17,6 +17,8 @@ use std::collections::BTreeMap;
 pub struct Study {
     /// Its name.
     pub name: String,
+    /// Its title, for the report.
+    pub title: String,
     /// The physics, for the report.
     pub text: String,
     /// The model.
@@ -84,6 +86,7 @@ impl Study {
         }
         let study = Self {
             name: spec.name.clone(),
+            title: spec.title.clone(),
             text: spec.text.trim().to_owned(),
             model,
             model_text: model_text(model, &base, &spec.sweep),

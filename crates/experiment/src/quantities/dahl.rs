@@ -153,7 +153,7 @@ quantity!(
     F_MINUS_AT_ZERO_AS_PRINTED,
     "f_minus_at_zero_as_printed",
     "F₋(0) of (17) to the letter",
-    ("closed form", "from the mended F₋: the misprint adds F_C (e^(σβ/2F_C) − e^(−σβ/2F_C))"),
+    ("closed form", "the mended F₋ plus what the misprint adds, 2 F_C sinh(βσ/(2F_C))"),
     "corollary.rs, falling_as_printed",
     |plan, subject| {
         let (dahl, study) = model(plan, subject)?;

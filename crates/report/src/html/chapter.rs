@@ -1,7 +1,7 @@
 //! One experiment: its physics, its figures, its tables.
 
 use super::paragraphs;
-use crate::chapter::{Chapter, Figure};
+use crate::chapter::{Chapter, Figure, heading};
 use crate::escape::html;
 use crate::grid;
 use crate::number;
@@ -35,7 +35,7 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
 }
 
 fn write_study(out: &mut String, study: &StudyRow) {
-    let name = html(&study.study);
+    let name = prose::html(heading(study));
     put!(out, "<h3>{name}</h3>\n{}", paragraphs(&study.text));
     let mut told = vec![("Model", number::greek(&study.model)), ("Input", study.input.clone())];
     if !study.reference.is_empty() {
@@ -81,14 +81,15 @@ fn write_figure(out: &mut String, chapter: &Chapter, figure: &Figure) {
     );
 }
 
-fn write_errors(out: &mut String, chapter: &Chapter, study: &str) {
+fn write_errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
     let summary = chapter.summary;
-    let name = html(study);
+    let heading = chapter.heading_of(study);
+    let name = prose::html(heading);
     if let Some(table) = grid::orders(summary, study) {
         put!(
             out,
             "<h3>{name}: observed orders</h3>\n<p>Each cell: restarted at corners / corners ignored.</p>\n{}",
-            table.html(&format!("Observed orders of {study}"))
+            table.html(&format!("Observed orders of {heading}"))
         );
     }
     if let Some(table) = grid::best(summary, study) {
@@ -97,7 +98,7 @@ fn write_errors(out: &mut String, chapter: &Chapter, study: &str) {
             "<h3>{name}: errors</h3>\n<p>Each cell: the smallest of the largest errors over all controls, \
              restarted at corners above, corners ignored below; then how many of the cases failed. \
              Errors are relative to the reference’s largest value.</p>\n{}",
-            table.html(&format!("Smallest errors of {study}"))
+            table.html(&format!("Smallest errors of {heading}"))
         );
     }
     let own = summary.cases.iter().filter(|case| case.study == study);
@@ -110,7 +111,7 @@ fn write_errors(out: &mut String, chapter: &Chapter, study: &str) {
             out,
             "<details><summary>All {count} cases of {name}{}</summary>\n{}</details>\n",
             html(&title),
-            table.html(&format!("Cases of {study}{title}"))
+            table.html(&format!("Cases of {heading}{title}"))
         );
     }
     if let Some(signs) = grid::signs(summary, study) {
