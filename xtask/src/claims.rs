@@ -6,7 +6,7 @@ use crate::{
 };
 use record::Summary;
 use serde_json::{Value, json};
-use std::path::Path;
+use std::{fmt::Write, path::Path};
 
 /// Prints the ledger of all experiments that have been run.
 pub(crate) fn claims(root: &Path, as_json: bool) -> Result<Exit, Failure> {
@@ -34,12 +34,8 @@ pub(crate) fn table(summaries: &[Summary]) -> String {
             let says = row.says.replace('|', "\\|");
             let (printed, ours) = (number(row.printed), number(row.ours));
             let id = format!("[`{}`](reports/{}/README.md)", row.id, summary.name);
-            text += &format!(
-                "| {id} | {says} | {} | {} | {} |\n",
-                printed.trim(),
-                ours.trim(),
-                row.verdict
-            );
+            let (printed, ours) = (printed.trim(), ours.trim());
+            let _ = writeln!(text, "| {id} | {says} | {printed} | {ours} | {} |", row.verdict);
         }
     }
     text

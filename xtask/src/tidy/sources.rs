@@ -1,6 +1,6 @@
 //! Rules for the text of sources: sizes, equation numbers, no path of a machine, no unfinished mark.
 
-use super::{entries, read, rust_files};
+use super::{read, rust_files};
 use crate::exit::Failure;
 use std::{collections::BTreeMap, path::Path};
 
@@ -55,11 +55,11 @@ pub(super) fn rules(root: &Path) -> Result<Vec<String>, Failure> {
             }
         }
     }
-    for name in entries(&root.join("experiments"))?.iter().filter(|n| n.ends_with(".toml")) {
-        let text = read(&root.join("experiments").join(name))?;
+    for name in crate::root::experiments(root)? {
+        let text = read(&root.join("experiments").join(format!("{name}.toml")))?;
         for (mark, what) in &forbidden {
             if text.contains(mark.as_str()) {
-                breaches.push(format!("experiments/{name}: {what}"));
+                breaches.push(format!("experiments/{name}.toml: {what}"));
             }
         }
     }
