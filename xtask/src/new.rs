@@ -14,6 +14,7 @@ text  = """What is asked."""
 
 [[study]]
 name      = "first"
+title     = "What the reader sees first"
 text      = """The physics, with its equation."""
 model     = { name = "dahl", f_c = 0.75, sigma = 1.5, gamma = 1.0 } # N, N/m
 input     = { shape = "sine", amplitude = 1.0, omega = 0.1 }        # m, rad/s

@@ -3,7 +3,12 @@
 mod common;
 
 use common::{Project, REAL, difference};
-use std::{fs, process::Stdio, thread, time::Instant};
+use std::{
+    fs,
+    process::{Command, Stdio},
+    thread,
+    time::{Duration, Instant},
+};
 
 const QUICK: &str = "target/duhem/quick";
 
@@ -143,4 +148,30 @@ fn check_passes_on_what_was_committed_and_fails_on_any_change() {
 #[expect(clippy::disallowed_methods, reason = "how long the run takes decides when to kill it")]
 fn now() -> Instant {
     Instant::now()
+}
+
+#[test]
+fn an_interrupted_run_ends_with_5_and_is_simply_started_again() {
+    let whole = project();
+    quick(&whole, &[]);
+    let expected = whole.files(QUICK);
+    let project = project();
+    let mut child = project
+        .command(&["reproduce", "--quick", "--threads", "1"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the built program");
+    // Not before the first record: the program has to be listening.
+    while project.files("target/duhem/records").is_empty() {
+        thread::sleep(Duration::from_millis(5));
+    }
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(sent.expect("kill").success());
+    let status = child.wait().expect("an end");
+    assert_eq!(status.code(), Some(5));
+    assert!(!project.files("target/duhem/records").is_empty());
+    assert!(project.files(QUICK).is_empty(), "a report was written for half a run");
+    quick(&project, &[]);
+    assert_eq!(difference(&expected, &project.files(QUICK)), None);
 }

@@ -25,6 +25,7 @@ budget = 20000
 
 [[study]]
 name      = "first"
+title     = "The first"
 model     = {{ name = "dahl", f_c = 0.75, sigma = 1.5 }}
 input     = {{ shape = "sine", amplitude = 1.0, omega = 0.1 }}
 sweep     = {{ gamma = [1.0, 2.0] }}

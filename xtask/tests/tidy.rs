@@ -1,0 +1,86 @@
+//! The house rules hold here, and a house that breaks them is told so.
+
+mod common;
+
+use common::{Project, small};
+use std::{fs, path::Path, process::Command};
+
+#[test]
+fn every_house_rule_holds_in_this_repository() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_xtask")).arg("--root").arg(root).arg("tidy").output();
+    let output = output.expect("the built program");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+}
+
+/// A copy of this repository's text, with one thing changed, and what tidy says of it.
+fn with(change: impl Fn(&Path), expected: &str) {
+    let project = Project::new(&[("small.toml", &small("\"rk4\""))]);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for name in ["crates", "xtask", "data", "reports", ".ci"] {
+        copy(&root.join(name), &project.path().join(name));
+    }
+    for name in
+        ["Cargo.toml", "Cargo.lock", "CITATION.cff", "LICENSE-APACHE", "LICENSE-MIT", "README.md"]
+    {
+        fs::copy(root.join(name), project.path().join(name)).expect(name);
+    }
+    copy(&root.join("experiments"), &project.path().join("experiments"));
+    fs::remove_file(project.path().join("experiments/small.toml")).expect("small.toml");
+    assert_eq!(project.run(&["tidy"]).code, Some(0), "{}", project.run(&["tidy"]).out);
+    change(project.path());
+    let ran = project.run(&["tidy"]);
+    assert_eq!(ran.code, Some(1), "{expected}: {ran:?}");
+    assert!(ran.out.contains(expected), "no `{expected}` in {}", ran.out);
+}
+
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).expect("a folder");
+    for entry in fs::read_dir(from).expect("a folder").map(|e| e.expect("an entry").path()) {
+        let target = to.join(entry.file_name().expect("a name"));
+        if entry.is_dir() {
+            copy(&entry, &target);
+        } else {
+            fs::copy(&entry, &target).expect("a file");
+        }
+    }
+}
+
+fn add(path: &Path, text: &str) {
+    let old = fs::read_to_string(path).unwrap_or_default();
+    fs::write(path, old + text).expect("a file");
+}
+
+#[test]
+fn a_breach_of_each_rule_is_told() {
+    let file =
+        |name: &'static str, text: &'static str| move |root: &Path| add(&root.join(name), text);
+    with(file("notes.txt", "x"), "notes.txt: the root holds only");
+    with(
+        file("crates/report/Cargo.toml", "duhem.workspace = true\n"),
+        "report may not depend on duhem",
+    );
+    with(
+        file("crates/duhem/Cargo.toml", "rayon.workspace = true\n"),
+        "rayon has no place in duhem",
+    );
+    with(
+        file("crates/duhem/Cargo.toml", "csv = \"1\"\n"),
+        "versions and features stand in the root",
+    );
+    with(file("crates/duhem/src/models/stribeck.rs", "//! x\n"), "stribeck.rs: is not in MODELS");
+    with(file("crates/integrate/src/solvers/ab2.rs", "//! x\n"), "ab2.rs: is not in SOLVERS");
+    with(file("crates/duhem/src/lib.rs", "/// F = 1   (19)\n"), "equation (19) stands at");
+    let mark = ["// TO", "DO\n"].concat();
+    with(|root| add(&root.join("crates/duhem/src/lib.rs"), &mark), "an unfinished mark");
+    with(
+        |root| add(&root.join("crates/duhem/src/lib.rs"), &"// x\n".repeat(400)),
+        "a file stays below",
+    );
+    with(
+        |root| fs::write(root.join("README.md"), "").expect("README"),
+        "does not stand in its first",
+    );
+    with(|root| fs::remove_file(root.join("LICENSE-MIT")).expect("MIT"), "LICENSE-MIT: is missing");
+}
