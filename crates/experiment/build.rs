@@ -4,8 +4,8 @@
 use sha2::{Digest, Sha256};
 use std::{env, error::Error, fmt::Write, fs, path::Path, process::Command};
 
-/// The crates whose code decides the numbers of a case.
-const COMPUTING: [&str; 4] = ["duhem", "integrate", "simulation", "experiment"];
+/// The crates whose code decides the numbers of a case and the form of its record.
+const COMPUTING: [&str; 5] = ["duhem", "integrate", "simulation", "record", "experiment"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let crates = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("..");
