@@ -198,6 +198,28 @@ fn the_values_in_a_figure_stand_beside_it_with_units() {
 }
 
 #[test]
+fn a_history_that_stops_early_says_why() {
+    let mut summary = fixture::summary();
+    summary.figures.retain(|row| row.kind == "history");
+    summary.figures[0].study = "fig01".to_owned();
+    let span = summary.studies.iter().find(|row| row.study == "fig01").unwrap().span;
+    let of = |row: &record::CurveRow| row.panel == "gamma=0.25" && row.series == "dopri5";
+    summary.curves.retain(|row| !of(row) || row.x < 0.4 * span);
+    let end = summary.curves.iter().rfind(|row| of(row)).unwrap().x;
+    let lane = "E: too many evaluations";
+    let drawn = |summary: &Summary| render(std::slice::from_ref(summary)).unwrap();
+    assert!(!find(&drawn(&summary), "dahl-gamma-sweep/steps.svg").contains(lane));
+    let case = summary.cases.iter_mut().find(|case| {
+        case.point == "gamma=0.25" && case.solver == "dopri5" && case.status != "solved"
+    });
+    case.unwrap().reached = end / span;
+    let outputs = drawn(&summary);
+    assert!(find(&outputs, "dahl-gamma-sweep/steps.svg").contains(lane));
+    let row = format!("gamma = 0.25,dopri5,{end:?},,too many evaluations\n").replace("gamma", "γ");
+    assert!(find(&outputs, "dahl-gamma-sweep/steps.csv").contains(&row), "no {row}");
+}
+
+#[test]
 fn an_unknown_kind_names_the_known_ones() {
     let mut summary = fixture::empty();
     let figure = |kind: &str| FigureRow {

@@ -1,10 +1,10 @@
 //! Curves on given axes: hysteresis loops, histories of steps.
 
 use super::{Drawing, incomplete, of_charts};
-use crate::plot::{Axis, Chart, Line, Look};
-use crate::select::distinct;
+use crate::plot::{Axis, Chart, LaneRow, Line, Look};
+use crate::select::{SOLVED, distinct, select};
 use crate::{ReportError, number};
-use record::{CurveRow, FigureRow, PanelRow, Summary};
+use record::{CaseRow, CurveRow, FigureRow, PanelRow, Summary};
 
 /// More points than these are a line, fewer are marked one by one.
 const FEW: usize = 12;
@@ -30,11 +30,13 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
         let axis = |label: &str, from, to, log| {
             Axis { label: label.to_owned(), from, to, log, at: Vec::new() }.checked()
         };
+        let lines = lines(&rows, panel, &names, alone);
         Chart {
             title: number::point(&panel.panel),
             x: axis(&panel.x, panel.x_min, panel.x_max, panel.x_log),
             y: axis(&panel.y, panel.y_min, panel.y_max, panel.y_log),
-            lines: lines(&rows, panel, &names, alone),
+            lane: failures(figure, summary, panel, &lines),
+            lines: lines.into_iter().map(|(_, line)| line).collect(),
             size,
             ..Chart::default()
         }
@@ -42,14 +44,48 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
     of_charts(figure, panels.iter().map(chart).collect(), 2.min(panels.len()))
 }
 
-fn lines(rows: &[&CurveRow], panel: &PanelRow, names: &[&str], alone: bool) -> Vec<Line> {
-    let line = |(n, name): (usize, &&str)| {
+/// The curves of one panel, each with the name of its series in the table.
+fn lines<'a>(
+    rows: &[&CurveRow],
+    panel: &PanelRow,
+    names: &[&'a str],
+    alone: bool,
+) -> Vec<(&'a str, Line)> {
+    let line = |(n, name): (usize, &&'a str)| {
         let own = rows.iter().filter(|row| row.panel == panel.panel && row.series == **name);
         let points: Vec<_> = own.map(|row| (row.x, row.y)).collect();
         let marks = points.len() <= FEW;
         let n = if alone { 0 } else { n };
         let look = if Look::is_solver(name) { Look::of_solver(name) } else { Look::nth(n) };
-        Line { name: number::point(name), note: String::new(), look, points, marks }
+        (*name, Line { name: number::point(name), note: String::new(), look, points, marks })
     };
-    names.iter().enumerate().map(line).filter(|line| !line.points.is_empty()).collect()
+    let drawn = |(_, line): &(&str, Line)| !line.points.is_empty();
+    names.iter().enumerate().map(line).filter(drawn).collect()
+}
+
+/// The histories that end where their run failed: a line that just stops would seem to have arrived.
+fn failures(
+    figure: &FigureRow,
+    summary: &Summary,
+    panel: &PanelRow,
+    lines: &[(&str, Line)],
+) -> Vec<LaneRow> {
+    let study = summary.studies.iter().find(|study| study.study == figure.study);
+    let Some(span) = study.map(|study| study.span).filter(|_| figure.kind == "history") else {
+        return Vec::new();
+    };
+    let cases = select(figure, summary, None).cases;
+    let row = |(name, line): &(&str, Line)| {
+        let end = line.points.last()?.0;
+        let here = |case: &&&CaseRow| {
+            let point = [name, panel.panel.as_str(), ""].contains(&case.point.as_str());
+            let solver = case.solver == *name || !Look::is_solver(name);
+            point && solver && case.status != SOLVED
+        };
+        let ends = |case: &&&CaseRow| (case.reached * span - end).abs() <= 1e-6 * span;
+        let case = cases.iter().filter(here).find(ends)?;
+        let marks = vec![(end, case.status.clone())];
+        Some(LaneRow { name: line.name.clone(), look: line.look, marks })
+    };
+    lines.iter().filter_map(row).collect()
 }

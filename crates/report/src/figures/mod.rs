@@ -36,7 +36,11 @@ pub const FIGURES: &[FigureKind] = &[
         draw: convergence::draw,
     },
     FigureKind { name: "curves", reads: "", draw: curves::draw },
-    FigureKind { name: "history", reads: "", draw: curves::draw },
+    FigureKind {
+        name: "history",
+        reads: "A letter in the margin lane stands where a run failed and its line ends.",
+        draw: curves::draw,
+    },
     FigureKind { name: "loop", reads: "", draw: curves::draw },
     FigureKind {
         name: "orders",

@@ -106,7 +106,8 @@ fn draw_labels(canvas: &Canvas, frame: &Frame, labels: &[Label]) -> Result<(), F
         canvas.line(&[(start, *y), (sample - 2.0, height)], Ink::Leader)?;
         let piece = [(sample, height), (sample + SAMPLE, height)];
         canvas.line(&piece, line.map_or(Ink::Guide, |line| Ink::Line(line.look)))?;
-        if let Some(line) = line {
+        // A mark that is nowhere on the line would be looked for.
+        if let Some(line) = line.filter(|line| line.marks || labels.len() > 1) {
             canvas.mark((sample + SAMPLE / 2.0, height), line.look)?;
         }
         let ink = line.map_or(Ink::Muted, |line| Ink::Label(line.look));

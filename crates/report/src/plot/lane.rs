@@ -9,8 +9,8 @@ use super::labels::{fit, spread};
 /// The height of a row [px].
 pub(crate) const ROW: f64 = 15.0;
 
-/// The width of a letter [px].
-const LETTER: f64 = 10.0;
+/// The room a bold letter takes [px].
+const LETTER: f64 = 12.0;
 
 /// One solver's failures.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +46,7 @@ pub(crate) fn key(rows: &[LaneRow], most: f64) -> Vec<String> {
     kinds.dedup();
     let mut lines: Vec<String> = Vec::new();
     for kind in kinds {
-        let entry = format!("{} {kind}", failure_letter(kind));
+        let entry = format!("{}: {kind}", failure_letter(kind));
         match lines.last_mut() {
             Some(line) if super::text_width(line) + super::text_width(&entry) < most => {
                 line.push_str(", ");
@@ -102,7 +102,7 @@ mod tests {
             marks: vec![(1.0, status.to_owned()), (2.0, "panicked".to_owned())],
         };
         let lines = key(&[row("diverged"), row("too many evaluations")], 1000.0);
-        assert_eq!(lines, ["D diverged, P panicked, E too many evaluations"]);
+        assert_eq!(lines, ["D: diverged, P: panicked, E: too many evaluations"]);
         assert_eq!(key(&[row("diverged")], 10.0).len(), 2);
     }
 }
