@@ -110,6 +110,26 @@ fn csv(drawing: &Drawing) -> String {
     std::iter::once(line(header)).chain(rows).collect()
 }
 
+/// What is reproduced: said on the front, for a reader who comes from nowhere.
+pub(crate) const PAPER: &str = "A reproduction of “Duhem Modeling of Friction-Induced Hysteresis” \
+     (IEEE Control Systems Magazine 28(5), 2008, doi 10.1109/MCS.2008.927331), its claims measured against \
+     exact answers, and the ODE solvers that have to cope with them compared.";
+
+/// Every claim with its chapter: what does not hold first, then what cannot be decided, then what holds.
+pub(crate) fn claims_by_outcome<'a, 'b>(
+    chapters: &'b [Chapter<'a>],
+) -> Vec<(&'b Chapter<'a>, &'a ClaimRow)> {
+    let of =
+        |chapter: &'b Chapter<'a>| chapter.summary.claims.iter().map(move |claim| (chapter, claim));
+    let mut all: Vec<_> = chapters.iter().flat_map(of).collect();
+    all.sort_by_key(|(_, claim)| match claim.holds {
+        Some(false) => 0,
+        None => 1,
+        Some(true) => 2,
+    });
+    all
+}
+
 /// What the front says first: how many claims hold, and the verdicts.
 pub(crate) fn count_of_claims(claims: &[&ClaimRow]) -> String {
     let total = claims.len();

@@ -1,6 +1,8 @@
 //! The same as Markdown, one sentence per line.
 
-use crate::chapter::{Chapter, Figure, count_of_claims, heading, holds, ours, sign};
+use crate::chapter::{
+    Chapter, Figure, PAPER, claims_by_outcome, count_of_claims, heading, holds, ours, sign,
+};
 use crate::escape::{code_path, markdown, markdown_attribute, sentences};
 use crate::grid;
 use crate::number;
@@ -10,23 +12,19 @@ use record::ClaimRow;
 
 /// The front.
 pub(crate) fn front(chapters: &[Chapter]) -> String {
-    let claims: Vec<&ClaimRow> =
-        chapters.iter().flat_map(|chapter| &chapter.summary.claims).collect();
+    let all = claims_by_outcome(chapters);
+    let claims: Vec<&ClaimRow> = all.iter().map(|(_, claim)| *claim).collect();
     let mut out = format!(
-        "# Duhem\n\n{}\n\nThe same as one page: [index.html](index.html).\n",
+        "# Duhem\n\n{PAPER}\n\n{}\n\nThe same as one page: [index.html](index.html).\n",
         markdown(&count_of_claims(&claims))
     );
     if !claims.is_empty() {
-        out.push_str("\n## Claims\n\n");
+        out.push_str("\n## Claims\n\nWhat does not hold comes first.\n\n");
         out.push_str(
             "| verdict | the paper says | printed | ours | why |\n|---|---|---:|---:|---|\n",
         );
-        for chapter in chapters {
-            chapter
-                .summary
-                .claims
-                .iter()
-                .for_each(|claim| out.push_str(&claim_row(chapter, claim)));
+        for (chapter, claim) in &all {
+            out.push_str(&claim_row(chapter, claim));
         }
     }
     out.push_str("\n## Experiments\n");

@@ -184,6 +184,10 @@ fn the_front_says_what_holds_and_shows_both_numbers() {
         assert!(front.contains("1.554220345\u{202f}J, error"), "{path}");
         assert!(front.contains("2.6\u{202f}J"), "{path}");
     }
+    let page = find(&outputs, "index.html");
+    let place = |id: &str| page.find(&format!("id=\"claim--{id}\"")).unwrap();
+    let places = ["dahl.energy", "dahl.frequency", "dahl.saturation", "dahl.shape"].map(place);
+    assert!(places.is_sorted(), "what does not hold comes first, then what cannot be decided");
     let readme = find(&outputs, "dahl-gamma-sweep/README.md");
     assert!(readme.contains("see p. 95.\nThe loop saturates there.\n"), "one sentence per line");
 }

@@ -1,7 +1,7 @@
 //! The front: what holds, what does not, and every figure at a glance.
 
 use super::code;
-use crate::chapter::{Chapter, count_of_claims, holds, ours, sign};
+use crate::chapter::{Chapter, PAPER, claims_by_outcome, count_of_claims, holds, ours, sign};
 use crate::escape::html;
 use crate::number;
 use crate::plot::thumbnail;
@@ -10,14 +10,20 @@ use record::ClaimRow;
 
 /// Writes the front.
 pub(super) fn write(out: &mut String, chapters: &[Chapter]) {
-    let claims: Vec<&ClaimRow> =
-        chapters.iter().flat_map(|chapter| &chapter.summary.claims).collect();
+    let all = claims_by_outcome(chapters);
+    let claims: Vec<&ClaimRow> = all.iter().map(|(_, claim)| *claim).collect();
     put!(
         out,
-        "<header>\n<h1>Duhem</h1>\n<p class=\"count\">{}</p>\n</header>\n",
+        "<header>\n<h1>Duhem</h1>\n<p>{PAPER}</p>\n<p class=\"count\">{}</p>\n</header>\n",
         html(&count_of_claims(&claims))
     );
-    out.push_str("<nav aria-label=\"Experiments\"><ol>\n");
+    out.push_str("<nav aria-label=\"Contents\"><ol>\n");
+    if !claims.is_empty() {
+        out.push_str("<li><a href=\"#claims\">Claims</a>\n");
+    }
+    if chapters.iter().any(|chapter| !chapter.figures.is_empty()) {
+        out.push_str("<li><a href=\"#figures\">Figures</a>\n");
+    }
     for chapter in chapters {
         let (id, title) = (&chapter.folder, html(chapter.title()));
         put!(out, "<li><a href=\"#{id}\">{title}</a>\n");
@@ -25,12 +31,12 @@ pub(super) fn write(out: &mut String, chapters: &[Chapter]) {
     out.push_str("<li><a href=\"#made\">How it was made</a>\n</ol></nav>\n");
     if !claims.is_empty() {
         out.push_str(
-            "<section>\n<h2 id=\"claims\">Claims</h2>\n<table class=\"claims\"><thead><tr>\
+            "<section>\n<h2 id=\"claims\">Claims</h2>\n<p>What does not hold comes first.</p>\n<table class=\"claims\"><thead><tr>\
              <th scope=\"col\">Verdict<th scope=\"col\">The paper says<th scope=\"col\">Printed\
              <th scope=\"col\">Ours</thead>\n",
         );
-        for chapter in chapters {
-            chapter.summary.claims.iter().for_each(|claim| write_claim(out, chapter, claim));
+        for (chapter, claim) in &all {
+            write_claim(out, chapter, claim);
         }
         out.push_str("</table>\n</section>\n");
     }
