@@ -37,6 +37,24 @@ pub(crate) fn heading(study: &StudyRow) -> &str {
     if study.title.is_empty() { &study.study } else { &study.title }
 }
 
+/// What is told of a study: its model, its input, and what its errors are measured against.
+pub(crate) fn told(study: &StudyRow) -> Vec<(&'static str, String)> {
+    let error = study.reference_error.map_or_else(String::new, |error| {
+        format!(", itself exact to {} in relative terms", number::error(Some(error)))
+    });
+    let reference = match study.reference.as_str() {
+        "" => String::new(),
+        name => format!("reference “{name}”{error}"),
+    };
+    let mut told = vec![
+        ("Model", number::greek(&study.model)),
+        ("Input", study.input.clone()),
+        ("Errors against", reference),
+    ];
+    told.retain(|(_, text)| !text.is_empty());
+    told
+}
+
 impl<'a> Chapter<'a> {
     /// The heading of the study of this name.
     pub(crate) fn heading_of(&self, name: &'a str) -> &'a str {

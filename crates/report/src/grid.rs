@@ -81,6 +81,22 @@ pub(crate) fn measures(summary: &Summary) -> Option<Grid> {
     (!rows.is_empty()).then_some(Grid { head, rows, class: "measures", words: 3 })
 }
 
+/// How the table of orders is read.
+pub(crate) const ORDERS_READ: &str = "Each cell: restarted at corners / corners ignored. \
+     Against steps the number is to be held against the declared order. \
+     Against rtol it is the slope of the error over the tolerance: 1 is proportional, and a method of order p \
+     that controls the error of each step without extrapolating has p/(p+1). \
+     A ~ stands before a slope through three runs or fewer.";
+
+/// How the table of smallest errors is read.
+pub(crate) const BEST_READ: &str = "Each cell: the largest error of a run, at the step or tolerance where it is smallest; \
+     above restarted at corners, below with corners ignored. \
+     Then, after ✗, how many of the runs failed. \
+     Errors are relative to the reference’s largest value.";
+
+/// Fewer points than these make a slope, but not an order.
+const FEW: u64 = 4;
+
 /// The observed orders of one study: `restarted / ignored` for each sweep point.
 pub(crate) fn orders(summary: &Summary, study: &str) -> Option<Grid> {
     let all: Vec<&OrderRow> = summary.orders.iter().filter(|row| row.study == study).collect();
@@ -96,7 +112,9 @@ pub(crate) fn orders(summary: &Summary, study: &str) -> Option<Grid> {
         let order = |point: &str, corners: &str| {
             let same = |r: &&&OrderRow| r.solver == solver && r.against == against;
             let found = all.iter().filter(same).find(|r| r.point == point && r.corners == corners);
-            number::maybe(found.and_then(|r| r.order), 2)
+            let rough = found.is_some_and(|r| r.order.is_some() && r.points < FEW);
+            let sign = if rough { "~" } else { "" };
+            format!("{sign}{}", number::maybe(found.and_then(|r| r.order), 2))
         };
         let declared = row.declared.map_or_else(|| "variable".to_owned(), |d| d.to_string());
         let mut cells = vec![solver.to_owned(), declared, against.to_owned()];
@@ -106,12 +124,12 @@ pub(crate) fn orders(summary: &Summary, study: &str) -> Option<Grid> {
         rows.push(cells);
     }
     let mut head = vec!["solver".to_owned(), "declared".to_owned(), "against".to_owned()];
-    head.extend(points.iter().map(|point| column_title(point)));
+    head.extend(points.iter().map(|point| column_title(point, "observed")));
     (!rows.is_empty()).then_some(Grid { head, rows, class: "orders", words: 3 })
 }
 
-fn column_title(point: &str) -> String {
-    if point.is_empty() { "observed".to_owned() } else { number::point(point) }
+fn column_title(point: &str, otherwise: &str) -> String {
+    if point.is_empty() { otherwise.to_owned() } else { number::point(point) }
 }
 
 /// One study at a glance: each solver's smallest error, restarted and not, and how many of its cases failed.
@@ -128,7 +146,7 @@ pub(crate) fn best(summary: &Summary, study: &str) -> Option<Grid> {
         })
         .collect();
     let head = std::iter::once("solver".to_owned());
-    let head = head.chain(points.iter().map(|point| column_title(point))).collect();
+    let head = head.chain(points.iter().map(|point| column_title(point, "smallest"))).collect();
     (!rows.is_empty()).then_some(Grid { head, rows, class: "best", words: 1 })
 }
 

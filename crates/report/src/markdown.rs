@@ -1,7 +1,7 @@
 //! The same as Markdown, one sentence per line.
 
 use crate::chapter::{
-    Chapter, Figure, PAPER, claims_by_outcome, count_of_claims, heading, holds, ours, sign,
+    Chapter, Figure, PAPER, claims_by_outcome, count_of_claims, heading, holds, ours, sign, told,
 };
 use crate::escape::{code_path, markdown, markdown_attribute, sentences};
 use crate::grid;
@@ -83,15 +83,12 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
     out.push_str("\n[All reports](../README.md)\n");
     for study in &summary.studies {
         put!(out, "\n## {}\n{}", prose::markdown(heading(study)), paragraphs(&study.text));
-        let model = number::greek(&study.model);
-        let told =
-            [("Model", &model), ("Input", &study.input), ("Errors against", &study.reference)];
-        let told: Vec<_> = told.into_iter().filter(|(_, text)| !text.is_empty()).collect();
+        let told = told(study);
         if !told.is_empty() {
             out.push('\n');
         }
         for (key, text) in told {
-            put!(out, "- {key}: {}\n", prose::markdown(text));
+            put!(out, "- {key}: {}\n", prose::markdown(&text));
         }
         chapter.figures_of(&study.study).for_each(|figure| out.push_str(&picture(figure)));
     }
@@ -115,17 +112,16 @@ fn errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
     if let Some(table) = grid::orders(chapter.summary, study) {
         put!(
             out,
-            "\n## {name}: observed orders\n\nEach cell: restarted at corners / corners ignored.\n\n{}",
+            "\n## {name}: observed orders\n{}\n{}",
+            paragraphs(grid::ORDERS_READ),
             table.markdown()
         );
     }
     if let Some(table) = grid::best(chapter.summary, study) {
         put!(
             out,
-            "\n## {name}: errors\n\nEach cell: the smallest of the largest errors over all controls, \
-             restarted at corners above, corners ignored below; then how many of the cases failed.\n\
-             Errors are relative to the reference’s largest value.\n\n{}\n\
-             Every case: [cases.csv](cases.csv).\n",
+            "\n## {name}: errors\n{}\n{}\nEvery case: [cases.csv](cases.csv).\n",
+            paragraphs(grid::BEST_READ),
             table.markdown()
         );
     }

@@ -93,6 +93,11 @@ fn trimmed(value: f64, digits: usize) -> String {
     }
 }
 
+/// Ten digits; fewer where the number is short, as 0.75 is, but not where its tenth just happens to be a zero.
+fn ten_digits(value: f64) -> String {
+    if parse(value, 6) == parse(value, 10) { trimmed(value, 10) } else { significant(value, 10) }
+}
+
 /// A number split at its decimal exponent, rounded to so many digits.
 fn parts(value: f64, digits: usize) -> (f64, i32) {
     let text = format!("{value:.*e}", digits.saturating_sub(1));
@@ -168,7 +173,7 @@ pub(crate) fn with_error(value: f64, error: Option<f64>, of: &str) -> String {
         return format!("0 ± {}{unit}", significant(error, 1));
     }
     if error < ROUND_OFF && (value == 0.0 || value.abs() > 1e-10) {
-        return format!("{}{unit}, error <\u{a0}10⁻¹³", trimmed(value, 10));
+        return format!("{}{unit}, error <\u{a0}10⁻¹³", ten_digits(value));
     }
     if error == 0.0 {
         return format!("{}{unit} ± 0", trimmed(value, 10));
@@ -178,7 +183,7 @@ pub(crate) fn with_error(value: f64, error: Option<f64>, of: &str) -> String {
     let last = last + 1 - digits_as_i32(digits); // the exponent of the last digit written
     let first = parts(value.abs().max(error), 15).1;
     if first - last >= MOST_DIGITS {
-        return format!("{} ± {}{unit}", trimmed(value, 10), significant(error, 1));
+        return format!("{} ± {}{unit}", ten_digits(value), significant(error, 1));
     }
     if (-3..5).contains(&first) {
         let decimals = usize::try_from(-last).unwrap_or(0);
@@ -277,6 +282,7 @@ mod tests {
     fn a_value_is_written_with_the_digits_its_error_leaves() {
         let table: &[(f64, Option<f64>, &str, &str)] = &[
             (1.554_22, Some(2e-16), "J", "1.55422\u{202f}J, error <\u{a0}10⁻¹³"),
+            (1.553_958_630_01, Some(2e-16), "J", "1.553958630\u{202f}J, error <\u{a0}10⁻¹³"),
             (1.554_220_345_098, Some(3e-9), "J", "1.554220345 ± 3\u{202f}×\u{202f}10⁻⁹\u{202f}J"),
             (2.6, Some(0.05), "J", "2.60 ± 0.05\u{202f}J"),
             (2.6, Some(0.012), "1", "2.600 ± 0.012"),

@@ -1,7 +1,7 @@
 //! One experiment: its physics, its figures, its tables.
 
 use super::paragraphs;
-use crate::chapter::{Chapter, Figure, heading};
+use crate::chapter::{Chapter, Figure, heading, told};
 use crate::escape::html;
 use crate::grid;
 use crate::number;
@@ -37,16 +37,8 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
 fn write_study(out: &mut String, study: &StudyRow) {
     let name = prose::html(heading(study));
     put!(out, "<h3>{name}</h3>\n{}", paragraphs(&study.text));
-    let mut told = vec![("Model", number::greek(&study.model)), ("Input", study.input.clone())];
-    if !study.reference.is_empty() {
-        let error = study.reference_error.map_or_else(String::new, |error| {
-            format!(", relative rounding error {}", number::error(Some(error)))
-        });
-        told.push(("Errors against", format!("{}{error}", study.reference)));
-    }
-    told.retain(|(_, text)| !text.is_empty());
     out.push_str("<dl class=\"study\">");
-    for (key, text) in told {
+    for (key, text) in told(study) {
         put!(out, "<dt>{key}<dd>{}", prose::html(&text));
     }
     out.push_str("</dl>\n");
@@ -88,16 +80,16 @@ fn write_errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
     if let Some(table) = grid::orders(summary, study) {
         put!(
             out,
-            "<h3>{name}: observed orders</h3>\n<p>Each cell: restarted at corners / corners ignored.</p>\n{}",
+            "<h3>{name}: observed orders</h3>\n<p>{}</p>\n{}",
+            html(grid::ORDERS_READ),
             table.html(&format!("Observed orders of {heading}"))
         );
     }
     if let Some(table) = grid::best(summary, study) {
         put!(
             out,
-            "<h3>{name}: errors</h3>\n<p>Each cell: the smallest of the largest errors over all controls, \
-             restarted at corners above, corners ignored below; then how many of the cases failed. \
-             Errors are relative to the reference’s largest value.</p>\n{}",
+            "<h3>{name}: errors</h3>\n<p>{}</p>\n{}",
+            html(grid::BEST_READ),
             table.html(&format!("Smallest errors of {heading}"))
         );
     }
