@@ -57,7 +57,11 @@ fn pieces(text: &str) -> Vec<Piece> {
             all.push((Some(element), inner));
             i = end;
         } else {
-            plain.push(if minus { '−' } else { chars[i] });
+            plain.push(match chars[i] {
+                '-' if minus => '−',
+                ' ' => space(&chars, i),
+                other => other,
+            });
             i += 1;
         }
     }
@@ -66,10 +70,36 @@ fn pieces(text: &str) -> Vec<Piece> {
     all
 }
 
+/// Units that never begin a line: a number stands before them.
+const UNITS: [&str; 14] =
+    ["N", "J", "m", "s", "mm", "kg", "rad", "Hz", "%", "/m", "m/s", "N/m", "N·m", "rad/s"];
+
+/// The space here, one that breaks no line between a number and its unit or inside a short relation.
+fn space(chars: &[char], at: usize) -> char {
+    let edge = |c: &&char| !c.is_whitespace();
+    let mut left: Vec<char> = chars[..at].iter().rev().take_while(edge).take(6).copied().collect();
+    left.reverse();
+    let right: String = chars[at + 1..].iter().take_while(edge).take(8).collect();
+    let right = right.trim_end_matches(['.', ',', ';', ':', ')']);
+    let relation = |word: &str| matches!(word, "=" | "<" | ">" | "≤" | "≥");
+    let word: String = left.iter().collect();
+    let short = |word: &str| !word.is_empty() && word.chars().count() <= 5;
+    let digit = left.last().is_some_and(|c| c.is_ascii_digit() || "⁰¹²³⁴⁵⁶⁷⁸⁹".contains(*c));
+    if digit && UNITS.contains(&right) {
+        number::THIN
+    } else if (relation(right) && short(&word)) || (relation(&word) && short(right)) {
+        '\u{a0}'
+    } else {
+        ' '
+    }
+}
+
 /// The index of a symbol of one letter: `F_C`, `v_S`, but not `tr_bdf2`.
 fn subscript(chars: &[char], at: usize) -> Option<(usize, String)> {
     let letter = at > 0 && chars[at - 1].is_alphabetic();
-    let alone = at < 2 || !(chars[at - 2].is_alphanumeric() || chars[at - 2] == '_');
+    // A factor may stand before the letter, as in `2F_C`, but not a name, as in `dop853_f`.
+    let before = chars[..at.saturating_sub(1)].iter().rfind(|c| !c.is_ascii_digit());
+    let alone = !before.is_some_and(|c| c.is_alphanumeric() || *c == '_');
     let inner: String = chars[at + 1..].iter().take_while(|c| c.is_alphanumeric()).collect();
     let end = at + 1 + inner.chars().count();
     let closed = chars.get(end) != Some(&'_');
@@ -130,17 +160,24 @@ mod tests {
 
     #[test]
     fn symbols_get_their_index_and_exponent_and_names_stay_as_they_are() {
-        assert_eq!(html("F_C > v_S"), "F<sub>C</sub> &gt; v<sub>S</sub>");
+        assert_eq!(html("F_C > v_S"), "F<sub>C</sub>\u{a0}&gt;\u{a0}v<sub>S</sub>");
+        assert_eq!(html("sinh(1/(2F_C)), dop853_f"), "sinh(1/(2F<sub>C</sub>)), dop853_f");
         assert_eq!(html("w^(1−γ) + |x|^γ"), "w<sup>1−γ</sup> + |x|<sup>γ</sup>");
         assert_eq!(html("tr_bdf2, ode_solvers, 2 * 3 * 4"), "tr_bdf2, ode_solvers, 2 * 3 * 4");
         assert_eq!(html("see *Error*, **b**"), "see <em>Error</em>, *<em>b</em>*");
         assert_eq!(html("e^((σ/F_C)(u − 1))"), "e<sup>(σ/F<sub>C</sub>)(u − 1)</sup>");
         assert_eq!(
             html("2e-16 N, 1e-12. 0e0; fig-1e5 3edges"),
-            "2\u{202f}×\u{202f}10⁻¹⁶ N, 10⁻¹². 0; fig-1e5 3edges"
+            "2\u{202f}×\u{202f}10⁻¹⁶\u{202f}N, 10⁻¹². 0; fig-1e5 3edges"
         );
-        assert_eq!(html("-0.5 N, 2-3, (-1)"), "−0.5 N, 2-3, (−1)");
+        assert_eq!(html("-0.5 N, 2-3, (-1)"), "−0.5\u{202f}N, 2-3, (−1)");
         assert_eq!(html("<^<b>_C"), "&lt;^&lt;b&gt;_C");
+    }
+
+    #[test]
+    fn a_number_keeps_its_unit_and_a_relation_its_sides() {
+        assert_eq!(html("1 m for γ = 0.25, two N"), "1\u{202f}m for γ\u{a0}=\u{a0}0.25, two N");
+        assert_eq!(html("3 meshes > everything"), "3 meshes &gt; everything");
     }
 
     #[test]
