@@ -82,7 +82,7 @@ pub(crate) fn measures(summary: &Summary) -> Option<Grid> {
 }
 
 /// How the table of orders is read.
-pub(crate) const ORDERS_READ: &str = "Each cell: restarted at corners / corners ignored. \
+pub(crate) const ORDERS_READ: &str = "Each cell: above restarted at corners, below with corners ignored. \
      Against steps the number is to be held against the declared order. \
      Against rtol it is the slope of the error over the tolerance: 1 is proportional, and a method of order p \
      that controls the error of each step without extrapolating has p/(p+1). \
@@ -97,7 +97,7 @@ pub(crate) const BEST_READ: &str = "Each cell: the largest error of a run, at th
 /// Fewer points than these make a slope, but not an order.
 const FEW: u64 = 4;
 
-/// The observed orders of one study: `restarted / ignored` for each sweep point.
+/// The observed orders of one study: restarted above ignored, for each sweep point.
 pub(crate) fn orders(summary: &Summary, study: &str) -> Option<Grid> {
     let all: Vec<&OrderRow> = summary.orders.iter().filter(|row| row.study == study).collect();
     let points = distinct(all.iter().map(|row| row.point.as_str()));
@@ -119,7 +119,7 @@ pub(crate) fn orders(summary: &Summary, study: &str) -> Option<Grid> {
         let declared = row.declared.map_or_else(|| "variable".to_owned(), |d| d.to_string());
         let mut cells = vec![solver.to_owned(), declared, against.to_owned()];
         cells.extend(
-            points.iter().map(|p| format!("{} / {}", order(p, "restart"), order(p, "ignore"))),
+            points.iter().map(|p| format!("{}\n{}", order(p, "restart"), order(p, "ignore"))),
         );
         rows.push(cells);
     }
