@@ -102,7 +102,9 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
     out.push_str("\n## How it was made\n\n");
     let told = ["title", "paper", "text"];
     for row in summary.about.iter().filter(|row| !told.contains(&row.key.as_str())) {
-        put!(out, "- {}: {}\n", markdown(&row.key), markdown(&row.value));
+        let plain = !row.key.starts_with("irreproducible");
+        let value = if plain { markdown(&row.value) } else { prose::markdown(&row.value) };
+        put!(out, "- {}: {value}\n", markdown(&row.key));
     }
     out
 }

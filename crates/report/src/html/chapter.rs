@@ -50,7 +50,7 @@ fn write_figure(out: &mut String, chapter: &Chapter, figure: &Figure) {
     let columns = drawing.columns.max(1) as f64;
     put!(
         out,
-        "<figure id=\"{id}\"><div class=\"panels\" role=\"region\" tabindex=\"0\" \
+        "<figure id=\"{id}\" aria-labelledby=\"{id}-caption\"><div class=\"panels\" role=\"region\" tabindex=\"0\" \
          aria-label=\"{title}\" style=\"max-width:{room}px\">\n",
         id = figure.id,
         title = html(&row.title),
@@ -61,9 +61,10 @@ fn write_figure(out: &mut String, chapter: &Chapter, figure: &Figure) {
     }
     put!(
         out,
-        "</div>\n<figcaption><b>{title}</b> {caption}<span class=\"sr\"> {description}</span>\n\
+        "</div>\n<figcaption><b id=\"{id}-caption\">{title}</b> {caption}<span class=\"sr\"> {description}</span>\n\
          <small>{reads} <a href=\"{folder}/{name}.svg\">SVG</a> · \
          <a href=\"{folder}/{name}.csv\">data</a></small></figcaption></figure>\n",
+        id = figure.id,
         title = prose::html(&row.title),
         caption = prose::html(&row.caption),
         description = html(&row.description),

@@ -34,8 +34,13 @@ fn made(out: &mut String, chapters: &[Chapter]) {
         put!(out, "<h3>{}</h3>\n<dl class=\"made\">\n", html(chapter.title()));
         let told = ["title", "paper", "text"];
         for row in chapter.summary.about.iter().filter(|row| !told.contains(&row.key.as_str())) {
-            let (key, value) = (html(&row.key), html(&row.value));
-            put!(out, "<dt>{key}<dd><code>{value}</code>\n");
+            // A reason is a text, all else is to be copied.
+            let value = if row.key.starts_with("irreproducible") {
+                crate::prose::html(&row.value)
+            } else {
+                format!("<code>{}</code>", html(&row.value))
+            };
+            put!(out, "<dt>{}<dd>{value}\n", html(&row.key));
         }
         out.push_str("</dl>\n");
     }
