@@ -232,6 +232,9 @@ pub(crate) fn point_value(text: &str) -> Option<f64> {
 
 /// A parameter's name as the paper's symbol: `sigma_0` as `σ₀`.
 pub(crate) fn symbol(name: &str) -> String {
+    if let Some((_, symbol)) = PAPER.iter().find(|(key, _)| *key == name) {
+        return (*symbol).to_owned();
+    }
     let (stem, index) = name.split_once('_').map_or((name, ""), |(a, b)| (a, b));
     let greek = GREEK.iter().find(|(word, _)| *word == stem).map_or(stem, |(_, letter)| letter);
     let digits: Option<String> = index
@@ -249,6 +252,9 @@ pub(crate) fn symbol(name: &str) -> String {
 pub(crate) fn greek(text: &str) -> String {
     text.split(' ').map(symbol).collect::<Vec<_>>().join(" ")
 }
+
+/// Keys whose symbol the paper writes with capitals.
+const PAPER: &[(&str, &str)] = &[("f_c", "F_C"), ("f_s", "F_S"), ("v_s", "v_S")];
 
 const GREEK: &[(&str, &str)] = &[
     ("alpha", "α"),
@@ -336,9 +342,9 @@ mod tests {
             ["0.25", "−1", "10⁻⁵", "0.3", "10⁵", "33"]
         );
         assert_eq!(point("gamma=0.250"), "γ = 0.25");
-        assert_eq!(point("sigma_0=1e5, v_s=0.001"), "σ₀ = 10⁵, v_s = 0.001");
+        assert_eq!(point("sigma_0=1e5, v_s=0.001"), "σ₀ = 10⁵, v_S = 0.001");
         assert_eq!(point(""), "");
-        assert_eq!(greek("dahl: f_c = 0.75; sigma = 1.5"), "dahl: f_c = 0.75; σ = 1.5");
+        assert_eq!(greek("dahl: f_c = 0.75; sigma = 1.5"), "dahl: F_C = 0.75; σ = 1.5");
         assert_eq!(point_value("gamma=1.5"), Some(1.5));
         assert_eq!(printed(Some(2.6), Some(2), "J"), "2.6\u{202f}J");
         assert_eq!(printed(Some(2.0), Some(3), "1"), "2.00");

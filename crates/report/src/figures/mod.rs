@@ -44,7 +44,7 @@ pub const FIGURES: &[FigureKind] = &[
     FigureKind { name: "loop", reads: "", draw: curves::draw },
     FigureKind {
         name: "orders",
-        reads: "The longer the bar, the more order a missed corner costs.",
+        reads: "A mark left of the tick falls short of the declared order; the longer the bar, the more of it the corners cost.",
         draw: orders::draw,
     },
     FigureKind {
