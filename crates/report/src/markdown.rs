@@ -49,7 +49,10 @@ fn claim_row(chapter: &Chapter, claim: &ClaimRow) -> String {
     if !holds(claim).is_empty() {
         put!(verdict, "<br>{}", holds(claim));
     }
-    let mut why = vec![prose::markdown(&claim.why), prose::markdown(&claim.how)];
+    let mut why = vec![prose::markdown(&claim.why)];
+    if !claim.how.is_empty() {
+        why.push(format!("Decided by: {}", prose::markdown(&claim.how)));
+    }
     if let Some(figure) = chapter.shown(claim) {
         let title = prose::markdown(&figure.row.title);
         why.push(format!("[{title}]({}/{}.svg)", chapter.folder, figure.name));

@@ -55,7 +55,7 @@ fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
     let printed = number::printed(claim.printed, claim.digits, &claim.unit);
     let mut more = Vec::new();
     if !claim.how.is_empty() {
-        more.push(format!("Decided by {}", prose::html(&claim.how)));
+        more.push(format!("Decided by: {}", prose::html(&claim.how)));
     }
     if let Some(figure) = chapter.shown(claim) {
         more.push(format!("<a href=\"#{}\">{}</a>", figure.id, prose::html(&figure.row.title)));
