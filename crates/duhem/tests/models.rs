@@ -225,3 +225,10 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn every_parameter_has_its_unit() {
+    for entry in MODELS {
+        assert_eq!(entry.keys.len(), entry.units.len(), "{}", entry.name);
+    }
+}

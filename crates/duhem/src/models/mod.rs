@@ -45,18 +45,36 @@ pub struct ModelEntry {
     pub name: &'static str,
     /// The keys of its parameters.
     pub keys: &'static [&'static str],
+    /// Their units, in the same order; empty for a pure number.
+    pub units: &'static [&'static str],
     /// Builds the model from its parameters.
     pub build: fn(&Parameters) -> Result<Box<dyn FrictionModel>, ParameterError>,
 }
 
 /// The friction models.
 pub const MODELS: &[ModelEntry] = &[
-    ModelEntry { name: "coulomb", keys: Coulomb::KEYS, build: |p| boxed(Coulomb::new(p)) },
-    ModelEntry { name: "dahl", keys: Dahl::KEYS, build: |p| boxed(Dahl::new(p)) },
-    ModelEntry { name: "lugre", keys: LuGre::KEYS, build: |p| boxed(LuGre::new(p)) },
+    ModelEntry {
+        name: "coulomb",
+        keys: Coulomb::KEYS,
+        units: &["N"],
+        build: |p| boxed(Coulomb::new(p)),
+    },
+    ModelEntry {
+        name: "dahl",
+        keys: Dahl::KEYS,
+        units: &["N", "N/m", ""],
+        build: |p| boxed(Dahl::new(p)),
+    },
+    ModelEntry {
+        name: "lugre",
+        keys: LuGre::KEYS,
+        units: &["N", "N", "m/s", "N/m", "N·s/m", "N·s/m"],
+        build: |p| boxed(LuGre::new(p)),
+    },
     ModelEntry {
         name: "maxwell-slip",
         keys: MaxwellSlip::KEYS,
+        units: &["N/m", "m"],
         build: |p| boxed(MaxwellSlip::new(p)),
     },
 ];

@@ -46,6 +46,13 @@ fn force(model: &dyn FrictionModel, share: f64, u_dot: f64) -> f64 {
     model.force(&x, &x_dot(model, share, u_dot), 0.0, u_dot)
 }
 
+/// The findings, each once.
+fn distinct(names: &[&str]) -> String {
+    let mut names = names.to_vec();
+    names.dedup();
+    names.join(", ")
+}
+
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().map(f64::abs).fold(0.0, f64::max)
 }
@@ -71,7 +78,7 @@ fn duhem_type(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
         });
         bend = bend.max(here);
     }
-    let found = names.join(", ");
+    let found = distinct(&names);
     Ok(Checked {
         holds: names.iter().all(|name| *name == subject.expect),
         value: Some(bend),
@@ -142,7 +149,7 @@ fn continuity(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
              scale; 0 is a jump, 1 is Lipschitz: found {}",
             NEAR[0],
             NEAR[1],
-            names.join(", ")
+            distinct(&names)
         ),
     })
 }

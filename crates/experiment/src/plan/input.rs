@@ -33,12 +33,12 @@ pub(super) fn check(table: &toml::Table) -> Result<(Input, String), Complaint> {
         "sine" => {
             let (a, omega) = wave()?;
             let input = Input::sine(a, omega).map_err(refused)?;
-            (input, format!("u = {a} sin({omega} t) m"))
+            (input, format!("u = {}sin({omega} t) m", times(a)))
         }
         "cosine-offset" => {
             let (a, omega) = wave()?;
             let input = Input::cosine_offset(a, omega).map_err(refused)?;
-            (input, format!("u = {a} (cos({omega} t) − 1) m"))
+            (input, format!("u = {}(cos({omega} t) − 1) m", times(a)))
         }
         "triangle" => {
             let (a, omega) = wave()?;
@@ -58,6 +58,11 @@ pub(super) fn check(table: &toml::Table) -> Result<(Input, String), Complaint> {
             (Input::sampled(t, u).map_err(refused)?, words)
         }
     })
+}
+
+/// An amplitude as a factor; 1 is not written.
+fn times(amplitude: f64) -> String {
+    if amplitude == 1.0 { String::new() } else { format!("{amplitude} ") }
 }
 
 fn sequence(table: &toml::Table) -> Result<(Input, String), Complaint> {

@@ -269,17 +269,15 @@ fn points(
 }
 
 fn model_text(model: &ModelEntry, base: &Parameters, sweep: &BTreeMap<String, Vec<f64>>) -> String {
+    let list = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
     let mut parts = vec![];
-    for key in model.keys {
-        match (base.0.get(*key), sweep.get(*key)) {
-            (_, Some(values)) => {
-                let list: Vec<String> = values.iter().map(ToString::to_string).collect();
-                parts.push(format!("{key} = {}", list.join(", ")));
-            }
-            (Some(Parameter::Scalar(value)), _) => parts.push(format!("{key} = {value}")),
-            (Some(other), _) => parts.push(format!("{key} = {other:?}")),
-            (None, None) => {}
-        }
+    for (key, unit) in model.keys.iter().zip(model.units) {
+        let value = match (base.0.get(*key), sweep.get(*key)) {
+            (_, Some(values)) | (Some(Parameter::List(values)), None) => list(values),
+            (Some(Parameter::Scalar(value)), None) => value.to_string(),
+            (None, None) => continue,
+        };
+        parts.push(format!("{key} = {value} {unit}").trim_end().to_owned());
     }
     format!("{}: {}", model.name, parts.join("; "))
 }
