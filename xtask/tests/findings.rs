@@ -79,10 +79,10 @@ fn a_missed_reversal_brings_fourth_order_down_to_two_and_leaves_first_and_second
 #[test]
 fn below_gamma_one_fourth_order_is_lost_even_with_restart() {
     let tables = dahl();
-    for point in ["gamma=0", "gamma=0.25", "gamma=0.5"] {
+    for (point, expected) in [("gamma=0", 1.0), ("gamma=0.25", 1.35), ("gamma=0.5", 2.0)] {
         for solver in ["rk4", "ode_solvers-rk4"] {
             let found = order(tables, point, solver, "restart").order.unwrap();
-            assert!(found < 2.5, "{solver}, {point}: order {found:.2}");
+            assert!((found - expected).abs() < 0.2, "{solver}, {point}: order {found:.2}");
         }
     }
 }
@@ -107,7 +107,7 @@ fn newton_finds_no_step_where_the_force_arrives_at_coulomb() {
 const ADAPTIVE: [&str; 6] = ["dopri5", "dop853-autonomous", "bdf", "tr_bdf2", "esdirk34", "tsit45"];
 
 #[test]
-fn gamma_zero_spends_any_budget_and_gamma_one_does_not() {
+fn gamma_zero_spends_half_a_million_evaluations_and_gamma_one_a_few_thousand() {
     let tables = dahl();
     for solver in ADAPTIVE {
         let one = case(tables, "gamma=1", (solver, 1e-7), "restart");
@@ -120,18 +120,23 @@ fn gamma_zero_spends_any_budget_and_gamma_one_does_not() {
 #[test]
 fn at_equal_tolerance_the_high_orders_lose_digits_to_missed_reversals_and_the_low_do_not() {
     let tables = dahl();
-    for solver in ["dopri5", "tsit45"] {
+    for point in ["gamma=1", "gamma=1.5", "gamma=2"] {
         for rtol in [1e-7, 1e-9, 1e-11] {
-            let digits = |corners| case(tables, "gamma=1", (solver, rtol), corners).digits.unwrap();
-            let lost = digits("restart") - digits("ignore");
-            assert!(lost > 1.5, "{solver} at {rtol:e} loses {lost:.1} digits");
-        }
-    }
-    for solver in ["bdf", "tr_bdf2", "esdirk34"] {
-        for rtol in [1e-7, 1e-9, 1e-11] {
-            let digits = |corners| case(tables, "gamma=1", (solver, rtol), corners).digits.unwrap();
-            let lost = digits("restart") - digits("ignore");
-            assert!(lost < 0.5, "{solver} at {rtol:e} loses {lost:.1} digits");
+            let lost = |solver| {
+                let digits = |corners| case(tables, point, (solver, rtol), corners).digits.unwrap();
+                digits("restart") - digits("ignore")
+            };
+            for solver in ["dopri5", "tsit45", "dop853-autonomous"] {
+                let lost = lost(solver);
+                assert!(
+                    (0.5..4.0).contains(&lost),
+                    "{solver}, {point}, {rtol:e}: loses {lost:.1} digits"
+                );
+            }
+            for solver in ["bdf", "tr_bdf2", "esdirk34"] {
+                let lost = lost(solver);
+                assert!(lost < 0.5, "{solver}, {point}, {rtol:e}: loses {lost:.1} digits");
+            }
         }
     }
 }

@@ -112,6 +112,11 @@ fn kinks(motion: &PrescribedMotion, reference: &dyn Reference) -> Vec<f64> {
     kinks
 }
 
+/// The larger of two errors; not a number if either is, which `f64::max` would drop.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
 #[derive(Debug, Default)]
 struct Norms {
     last: Option<f64>,
@@ -124,7 +129,7 @@ impl Norms {
     /// The norms of the errors at times `t`; none where there is nothing finite to take one of.
     fn of(t: &[f64], errors: &[f64], kinks: &[f64], period: f64) -> Self {
         let finite = |e: f64| e.is_finite().then_some(e);
-        let largest = |e: &mut dyn Iterator<Item = f64>| e.reduce(f64::max).and_then(finite);
+        let largest = |e: &mut dyn Iterator<Item = f64>| e.reduce(larger).and_then(finite);
         let near = |t: f64| {
             let next = kinks.partition_point(|kink| *kink < t);
             let mut around = kinks[next.saturating_sub(1)..].iter().take(2);
@@ -162,5 +167,31 @@ fn history(trajectory: &Trajectory, errors: &[f64]) -> History {
         step: kept.iter().map(|i| step(*i)).collect(),
         value: kept.iter().map(|i| trajectory.y[i * trajectory.n]).collect(),
         error: kept.iter().map(|i| errors[*i]).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{NEAR_A_KINK, Norms};
+
+    #[test]
+    fn the_norms_of_a_known_error() {
+        // A period of 100 s with a kink at 50 s: 5 s about it are near.
+        let t = [0.0, 10.0, 48.0, 50.0, 60.0, 100.0];
+        let errors = [0.0, 1e-3, 5e-3, 9e-3, 2e-3, 1e-3];
+        let norms = Norms::of(&t, &errors, &[50.0], 100.0);
+        assert_eq!((norms.last, norms.max, norms.away), (Some(1e-3), Some(9e-3), Some(2e-3)));
+        assert!((NEAR_A_KINK - 0.05).abs() < 1e-15);
+        let squares = 10.0 * 0.5 + 38.0 * 13.0 + 2.0 * 53.0 + 10.0 * 42.5 + 40.0 * 2.5;
+        let expected = (squares * 1e-6 / 100.0_f64).sqrt();
+        assert!((norms.l2.unwrap() - expected).abs() < 1e-12, "{:?} and {expected}", norms.l2);
+    }
+
+    #[test]
+    fn an_error_that_is_no_number_is_no_small_error() {
+        for errors in [[f64::NAN, 1e-3], [1e-3, f64::NAN]] {
+            let norms = Norms::of(&[0.0, 1.0], &errors, &[], 10.0);
+            assert_eq!((norms.max, norms.l2, norms.away), (None, None, None));
+        }
     }
 }

@@ -39,10 +39,12 @@ enum Tolerance {
         relative: f64,
         absolute: f64,
     },
+    /// Equal if neither is more than this many times the other, or both are tiny.
+    Within(f64),
     Ignored,
 }
 
-use Tolerance::{Close, Exact, Ignored};
+use Tolerance::{Close, Exact, Ignored, Within};
 
 /// Errors, orders and other results of a reproducible case.
 const RESULT: Tolerance = Close { relative: 2e-3, absolute: 2e-12 };
@@ -50,6 +52,8 @@ const RESULT: Tolerance = Close { relative: 2e-3, absolute: 2e-12 };
 const WORK: Tolerance = Close { relative: 0.05, absolute: 20.0 };
 /// Closed forms.
 const TIGHT: Tolerance = Close { relative: 1e-9, absolute: 1e-12 };
+/// Below this, errors and bounds of errors are rounding.
+const TINY: f64 = 1e-12;
 
 /// Every field that moved between two summaries of the same experiment.
 pub fn drift(committed: &Summary, found: &Summary) -> Vec<Drift> {
@@ -81,21 +85,32 @@ fn irreproducible(row: &Row) -> bool {
 
 fn study(field: &str, _: &Row) -> Tolerance {
     // A bound of rounding errors is itself made of last bits.
-    if field == "reference_error" { Ignored } else { TIGHT }
+    if field == "reference_error" { Within(2.0) } else { TIGHT }
 }
 
 fn case(field: &str, row: &Row) -> Tolerance {
+    let error = row.get("error_max").and_then(Value::as_f64).unwrap_or(0.0);
     match field {
-        "reached" | "error_final" | "error_max" | "error_l2" | "error_away" | "digits"
-        | "evaluations" | "jacobians" | "accepted" | "rejected" | "detail"
-            if irreproducible(row) =>
+        "status" | "detail" | "reached" | "error_final" | "error_max" | "error_l2"
+        | "error_away" | "digits" | "order" | "evaluations" | "jacobians" | "accepted"
+        | "rejected"
+            if row.get("any_status") == Some(&Value::Bool(true)) =>
         {
             Ignored
         }
-        "status" if row.get("any_status") == Some(&Value::Bool(true)) => Ignored,
+        // What chatters or meets a kink untold still has an error and a cost of some size.
+        "error_final" | "error_max" | "error_l2" | "error_away" if irreproducible(row) => {
+            Within(1e3)
+        }
+        "evaluations" | "jacobians" | "accepted" | "rejected" if irreproducible(row) => {
+            Within(10.0)
+        }
+        "reached" if irreproducible(row) => Close { relative: 0.0, absolute: 0.1 },
+        "digits" | "order" | "detail" if irreproducible(row) => Ignored,
         "error_final" | "error_max" | "error_l2" | "error_away" => RESULT,
-        // They follow from the largest error.
-        "digits" | "order" => Ignored,
+        // They are logarithms of errors, and of nothing near round-off.
+        "digits" | "order" if error < 1e-9 => Ignored,
+        "digits" | "order" => Close { relative: 0.0, absolute: 0.05 },
         "reached" => Close { relative: 1e-3, absolute: 0.0 },
         "evaluations" | "jacobians" | "accepted" | "rejected" => WORK,
         _ => Exact,
@@ -112,7 +127,8 @@ fn order(field: &str, row: &Row) -> Tolerance {
 }
 
 fn value(field: &str, _: &Row) -> Tolerance {
-    if field == "error" { Ignored } else { TIGHT }
+    // A bound of an error may breathe, but not lose its size.
+    if field == "error" { Within(10.0) } else { TIGHT }
 }
 
 fn compare<T: Serialize>(
@@ -169,6 +185,10 @@ fn name(row: &Row) -> String {
 fn equal(was: &Value, is: &Value, tolerance: &Tolerance) -> bool {
     match (tolerance, was.as_f64(), is.as_f64()) {
         (Ignored, ..) => true,
+        (Within(factor), Some(a), Some(b)) => {
+            let (small, large) = (a.abs().min(b.abs()), a.abs().max(b.abs()));
+            large <= factor * small + TINY
+        }
         (Close { relative, absolute }, Some(a), Some(b)) => {
             (a - b).abs() <= relative * a.abs().max(b.abs()) + absolute
         }
@@ -179,7 +199,7 @@ fn equal(was: &Value, is: &Value, tolerance: &Tolerance) -> bool {
 #[cfg(test)]
 mod tests {
     use super::drift;
-    use record::{CaseRow, ClaimRow, Summary};
+    use record::{AboutRow, CaseRow, ClaimRow, CurveRow, MeasureRow, OrderRow, Summary};
 
     fn summary(row: CaseRow) -> Summary {
         Summary { cases: vec![row], ..Summary::default() }
@@ -206,12 +226,51 @@ mod tests {
     }
 
     #[test]
-    fn of_an_irreproducible_row_only_the_status_counts() {
+    fn of_an_irreproducible_row_the_status_and_the_sizes_count() {
         let marked = CaseRow { irreproducible: "chatter".to_owned(), ..row() };
-        let other = CaseRow { error_max: Some(0.5), accepted: 7, ..marked.clone() };
-        assert!(drift(&summary(marked.clone()), &summary(other.clone())).is_empty());
-        let failed = CaseRow { status: "diverged".to_owned(), ..other };
-        assert_eq!(drift(&summary(marked), &summary(failed)).len(), 1);
+        let moved = |other: CaseRow| drift(&summary(marked.clone()), &summary(other)).len();
+        let near =
+            CaseRow { error_max: Some(5e-4), accepted: 7000, digits: Some(3.3), ..marked.clone() };
+        assert_eq!(moved(near), 0);
+        assert_eq!(moved(CaseRow { status: "diverged".to_owned(), ..marked.clone() }), 1);
+        assert_eq!(moved(CaseRow { error_max: Some(2e-3), ..marked.clone() }), 1);
+        assert_eq!(moved(CaseRow { accepted: 50_000, ..marked.clone() }), 1);
+        assert_eq!(moved(CaseRow { reached: 0.5, ..marked.clone() }), 1);
+        let edge = CaseRow { any_status: true, ..marked.clone() };
+        let other = CaseRow { status: "diverged".to_owned(), error_max: Some(1.0), ..edge.clone() };
+        assert!(drift(&summary(edge), &summary(other)).is_empty());
+    }
+
+    #[test]
+    fn each_table_is_compared_just_so_far() {
+        let measure = |value, error| Summary {
+            measures: vec![MeasureRow { value, error, ..MeasureRow::default() }],
+            ..Summary::default()
+        };
+        let moved = |value, error| drift(&measure(1.5, 1e-9), &measure(value, error)).len();
+        assert_eq!((moved(1.5 + 1e-9, 5e-9), moved(1.5 + 1e-8, 1e-9), moved(1.5, 2e-8)), (0, 1, 1));
+        let order = |order| Summary {
+            orders: vec![OrderRow { order: Some(order), ..OrderRow::default() }],
+            ..Summary::default()
+        };
+        let moved = |found| drift(&order(4.0), &order(found)).len();
+        assert_eq!((moved(4.05), moved(4.2)), (0, 1));
+        let curve = |y| Summary {
+            curves: vec![CurveRow { y, ..CurveRow::default() }],
+            ..Summary::default()
+        };
+        let moved = |found| drift(&curve(0.5), &curve(found)).len();
+        assert_eq!((moved(0.5 + 1e-11), moved(0.5 + 1e-8)), (0, 1));
+        let work = |accepted| summary(CaseRow { accepted, ..row() });
+        let moved = |found| drift(&work(1000), &work(found)).len();
+        assert_eq!((moved(1060), moved(1100)), (0, 1));
+        let digits = |digits| summary(CaseRow { digits: Some(digits), ..row() });
+        assert_eq!(drift(&digits(6.0), &digits(6.2)).len(), 1);
+        let text = |value: &str| Summary {
+            about: vec![AboutRow { key: "title".to_owned(), value: value.to_owned() }],
+            ..Summary::default()
+        };
+        assert_eq!(drift(&text("a"), &text("b")).len(), 1);
     }
 
     #[test]
