@@ -8,16 +8,15 @@ use std::{env, error::Error, fmt::Write, fs, path::Path, process::Command};
 const COMPUTING: [&str; 5] = ["duhem", "integrate", "simulation", "record", "experiment"];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let crates = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("..");
+    let root = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("../..");
     let mut hash = Sha256::new();
     for name in COMPUTING {
-        let folder = crates.join(name).join("src");
-        println!("cargo:rerun-if-changed={}", folder.display());
-        add(&mut hash, &folder)?;
+        add(&mut hash, &root, &format!("crates/{name}/src"))?;
+        add(&mut hash, &root, &format!("crates/{name}/Cargo.toml"))?;
     }
-    let lock = crates.join("../Cargo.lock");
-    println!("cargo:rerun-if-changed={}", lock.display());
-    hash.update(fs::read(lock)?);
+    // Features and optimisation stand in the root manifest, versions in the lock file.
+    add(&mut hash, &root, "Cargo.toml")?;
+    add(&mut hash, &root, "Cargo.lock")?;
     hash.update(Command::new(env::var("RUSTC")?).arg("-vV").output()?.stdout);
     for name in ["TARGET", "PROFILE", "CARGO_ENCODED_RUSTFLAGS"] {
         hash.update(env::var(name).unwrap_or_default());
@@ -30,18 +29,20 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn add(hash: &mut Sha256, path: &Path) -> Result<(), Box<dyn Error>> {
+/// Adds a file, or all files of a folder in the order of their names: name, length, content.
+fn add(hash: &mut Sha256, root: &Path, name: &str) -> Result<(), Box<dyn Error>> {
+    let path = root.join(name);
+    println!("cargo:rerun-if-changed={}", path.display());
     if path.is_dir() {
-        let mut inside = fs::read_dir(path)?
-            .map(|entry| entry.map(|e| e.path()))
-            .collect::<Result<Vec<_>, _>>()?;
-        inside.sort();
-        for path in inside {
-            add(hash, &path)?;
+        let mut inside = Vec::new();
+        for entry in fs::read_dir(&path)? {
+            inside.push(format!("{name}/{}", entry?.file_name().to_string_lossy()));
         }
-    } else {
-        hash.update(path.file_name().unwrap_or_default().as_encoded_bytes());
-        hash.update(fs::read(path)?);
+        inside.sort();
+        return inside.iter().try_for_each(|name| add(hash, root, name));
     }
+    let bytes = fs::read(&path)?;
+    hash.update(format!("{name}\n{}\n", bytes.len()));
+    hash.update(bytes);
     Ok(())
 }

@@ -27,14 +27,9 @@ pub(crate) fn table(summaries: &[Summary]) -> String {
         "| claim | the paper | printed | ours | verdict |\n|---|---|---|---|---|\n".to_owned();
     for summary in summaries {
         for row in &summary.claims {
-            let unit = if row.unit == "1" { "" } else { &row.unit };
-            let number = |v: Option<f64>| {
-                v.map_or(String::new(), |v| format!("{} {unit}", screen::short(v)))
-            };
             let says = row.says.replace('|', "\\|");
-            let (printed, ours) = (number(row.printed), number(row.ours));
+            let [printed, ours] = screen::numbers(row);
             let id = format!("[`{}`](reports/{}/README.md)", row.id, summary.name);
-            let (printed, ours) = (printed.trim(), ours.trim());
             let _ = writeln!(text, "| {id} | {says} | {printed} | {ours} | {} |", row.verdict);
         }
     }

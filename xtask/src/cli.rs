@@ -76,7 +76,7 @@ pub(crate) struct ReproduceArgs {
     /// Only the first two steps and tolerances of every study, written beside the record store.
     #[arg(long)]
     pub(crate) quick: bool,
-    /// Write nothing; fail if anything committed would change.
+    /// Run everything afresh, write nothing; fail if anything committed would change.
     #[arg(long, conflicts_with = "quick")]
     pub(crate) check: bool,
     /// Ignore the records of earlier runs.

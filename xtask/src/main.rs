@@ -21,6 +21,7 @@ fn main() -> ExitCode {
     quiet_panics_of_solvers();
     let cli = Cli::parse();
     let code = match panic::catch_unwind(|| run(&cli)) {
+        Ok(Ok(Exit::Done)) if output::lost() => Exit::Environment,
         Ok(Ok(exit)) => exit,
         Ok(Err(failure)) => {
             output::error(&format!("{:#}", failure.error));

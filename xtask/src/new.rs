@@ -37,8 +37,7 @@ caption     = "What to see in it."
 /// Writes the new file, and never over an old one.
 pub(crate) fn new(root: &Path, what: &New) -> Result<Exit, Failure> {
     let New::Experiment { name } = what;
-    let allowed = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-    if name.is_empty() || !name.chars().all(allowed) || name.starts_with('-') {
+    if !root::plain(name) {
         let message = format!("`{name}`: expected lower case letters, digits and dashes");
         return Err(Failure::usage(message));
     }

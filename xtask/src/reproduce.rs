@@ -10,10 +10,10 @@ use crate::{
 };
 use experiment::{Drift, Finished, Options, Plan, WATCHDOG, Why, drift, run, summary};
 use record::{Store, Summary, write_whole};
-use report::Output;
+use serde_json::json;
 use std::{
     fs,
-    path::{Path, PathBuf},
+    path::Path,
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
@@ -42,25 +42,20 @@ pub(crate) fn reproduce(root: &Path, arguments: &ReproduceArgs) -> Result<Exit, 
         if arguments.quick { root.join("target/duhem/quick") } else { root.join("reports") };
     let mut moved: Vec<String> =
         if arguments.check { rendered_again(root, &reports)? } else { vec![] };
-    let (mut fresh, mut given_up) = (Vec::new(), 0);
+    let (mut found, mut given_up) = (Vec::new(), 0);
     for plan in &plans {
         let finished = run_one(root, plan, arguments)?;
         given_up += finished.iter().filter(|f| f.record.row.status == WATCHDOG).count();
-        let found = summary(plan, &finished)?;
-        if arguments.check {
-            moved.extend(run_again(&reports, &found)?);
-        } else {
-            for (file, bytes) in found.files() {
-                write_whole(&reports.join(&plan.name).join(file), &bytes)?;
-            }
-        }
-        fresh.push(found);
+        found.push(summary(plan, &finished)?);
     }
     if arguments.check {
-        return Ok(verdict(&moved, given_up));
+        for tables in &found {
+            moved.extend(run_again(&reports, tables)?);
+        }
+        return Ok(verdict(&moved, given_up, arguments.json));
     }
-    write_report(root, &reports)?;
-    claims::print(&fresh, arguments.json);
+    write(root, &reports, &found)?;
+    claims::print(&found, arguments.json);
     if given_up > 0 {
         output::error(&format!(
             "{given_up} cases gave no answer and were given up by the watchdog"
@@ -79,7 +74,8 @@ fn run_one(
     let processors = || thread::available_parallelism().map_or(1, usize::from);
     let options = Options {
         store: Store::new(store),
-        fresh: arguments.fresh,
+        // A check that reuses what an earlier run computed checks nothing.
+        fresh: arguments.fresh || arguments.check,
         threads: arguments.threads.map_or_else(processors, usize::from),
         watchdog: Duration::from_secs_f64(arguments.watchdog),
         stop: &STOP,
@@ -123,9 +119,15 @@ fn rendered_again(root: &Path, reports: &Path) -> Result<Vec<String>, Failure> {
             Err(_) => moved.push(format!("reports/{}: is missing", output.path)),
         }
     }
-    for path in strangers(reports, &outputs) {
-        let shown = path.strip_prefix(reports).unwrap_or(&path).display().to_string();
-        moved.push(format!("reports/{shown}: nothing writes it"));
+    let experiments = root::experiments(root)?;
+    for path in files(reports) {
+        let ours = outputs.iter().any(|o| o.path == path)
+            || path.split_once('/').is_some_and(|(name, file)| {
+                Summary::FILES.contains(&file) && experiments.iter().any(|e| e == name)
+            });
+        if !ours {
+            moved.push(format!("reports/{path}: nothing writes it"));
+        }
     }
     Ok(moved)
 }
@@ -141,18 +143,24 @@ fn run_again(reports: &Path, found: &Summary) -> Result<Vec<String>, Failure> {
     Ok(moved.iter().map(|d| format!("reports/{}/{d}", found.name)).collect())
 }
 
-fn verdict(moved: &[String], given_up: usize) -> Exit {
-    for line in moved.iter().take(MOST_DRIFTS) {
-        output::note(line);
-    }
-    if moved.len() > MOST_DRIFTS {
-        output::note(&format!("… and {} more", moved.len() - MOST_DRIFTS));
+fn verdict(moved: &[String], given_up: usize, as_json: bool) -> Exit {
+    let passed = moved.is_empty() && given_up == 0;
+    if as_json {
+        let told = json!({ "format": record::FORMAT, "passed": passed, "moved": moved, "given_up": given_up });
+        output::line(&format!("{told:#}"));
+    } else {
+        for line in moved.iter().take(MOST_DRIFTS) {
+            output::note(line);
+        }
+        if moved.len() > MOST_DRIFTS {
+            output::note(&format!("… and {} more", moved.len() - MOST_DRIFTS));
+        }
     }
     if given_up > 0 {
         output::note(&format!("{given_up} cases were given up by the watchdog"));
     }
-    if moved.is_empty() && given_up == 0 {
-        output::line("check: nothing committed would change");
+    if passed {
+        output::note("check: nothing committed would change");
         return Exit::Done;
     }
     output::error(&format!(
@@ -162,37 +170,47 @@ fn verdict(moved: &[String], given_up: usize) -> Exit {
     Exit::CheckFailed
 }
 
-/// Renders the tables on disk and writes what changed; files of ours that nothing writes any more are removed.
-fn write_report(root: &Path, reports: &Path) -> Result<(), Failure> {
-    let outputs = report::render(&claims::committed(root, reports)?)?;
+/// Renders everything, then writes what changed; figures of ours that nothing draws any more are removed.
+fn write(root: &Path, reports: &Path, found: &[Summary]) -> Result<(), Failure> {
+    let before = claims::committed(root, reports)?;
+    let kept = before.iter().filter(|old| !found.iter().any(|new| new.name == old.name));
+    let mut all: Vec<Summary> = kept.chain(found).cloned().collect();
+    all.sort_by(|a, b| a.name.cmp(&b.name));
+    let outputs = report::render(&all)?;
+    for tables in found {
+        for (file, bytes) in tables.files() {
+            write_whole(&reports.join(&tables.name).join(file), &bytes)?;
+        }
+    }
     for output in &outputs {
         write_whole(&reports.join(&output.path), &output.bytes)?;
     }
-    for path in strangers(reports, &outputs) {
-        fs::remove_file(&path).map_err(Failure::environment)?;
+    for old in &before {
+        for figure in &old.figures {
+            for kind in ["svg", "csv"] {
+                let path = format!("{}/{}.{kind}", old.name, figure.figure);
+                let table = Summary::FILES.iter().any(|file| path.ends_with(&format!("/{file}")));
+                if !table
+                    && !outputs.iter().any(|o| o.path == path)
+                    && reports.join(&path).is_file()
+                {
+                    fs::remove_file(reports.join(&path)).map_err(Failure::environment)?;
+                }
+            }
+        }
     }
     Ok(())
 }
 
-/// Files of the kinds we write, in folders we write, that are neither tables nor output.
-fn strangers(reports: &Path, outputs: &[Output]) -> Vec<PathBuf> {
-    let ours = |path: &Path| {
-        let tail = path.strip_prefix(reports).unwrap_or(path).to_string_lossy().into_owned();
-        let table = path.file_name().is_some_and(|n| Summary::FILES.iter().any(|f| n == *f));
-        table || outputs.iter().any(|o| o.path == tail)
-    };
-    let kind =
-        |path: &Path| path.extension().is_some_and(|e| e == "svg" || e == "csv" || e == "md");
+/// Every file below a folder, by its path in it with `/`, sorted.
+fn files(folder: &Path) -> Vec<String> {
     let mut found = Vec::new();
-    for folder in fs::read_dir(reports).into_iter().flatten().flatten().map(|e| e.path()) {
-        // Only folders that hold an experiment's tables are ours to clear.
-        if !folder.join(Summary::FILES[0]).is_file() {
-            continue;
-        }
-        for path in fs::read_dir(&folder).into_iter().flatten().flatten().map(|e| e.path()) {
-            if kind(&path) && !ours(&path) {
-                found.push(path);
-            }
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if entry.path().is_dir() {
+            found.extend(files(&entry.path()).into_iter().map(|inner| format!("{name}/{inner}")));
+        } else {
+            found.push(name);
         }
     }
     found.sort();

@@ -1,6 +1,6 @@
 //! The project's folder, and the experiments in it.
 
-use crate::exit::Failure;
+use crate::exit::{Exit, Failure};
 use std::{
     env, fs,
     path::{Path, PathBuf},
@@ -36,11 +36,28 @@ pub(crate) fn experiments(root: &Path) -> Result<Vec<String>, Failure> {
     for entry in fs::read_dir(&folder).map_err(Failure::environment)? {
         let path = entry.map_err(Failure::environment)?.path();
         if path.extension().is_some_and(|e| e == "toml") {
-            names.push(path.file_stem().unwrap_or_default().to_string_lossy().into_owned());
+            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            if !plain(&name) || !path.is_file() {
+                let shown = path.file_name().unwrap_or_default();
+                let found = format!("experiments/{}", shown.to_string_lossy().escape_debug());
+                return Err(Failure {
+                    exit: Exit::Input,
+                    error: anyhow::anyhow!(
+                        "{found}: expected a file whose name is lower case letters, digits and dashes"
+                    ),
+                });
+            }
+            names.push(name);
         }
     }
     names.sort();
     Ok(names)
+}
+
+/// Whether a text can name an experiment, its folder and its place in the page.
+pub(crate) fn plain(name: &str) -> bool {
+    let allowed = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    (1..=64).contains(&name.len()) && name.chars().all(allowed) && !name.starts_with('-')
 }
 
 /// The experiments of these names, or all; an unknown name is a usage error with the near miss.

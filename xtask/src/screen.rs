@@ -1,5 +1,6 @@
 //! The claims in one screen.
 
+use experiment::four_digits;
 use record::{ClaimRow, Summary};
 use std::{
     env,
@@ -30,23 +31,18 @@ fn claim(row: &ClaimRow, width: usize, colours: bool) -> String {
         "contradicted" => ("x", "31"),
         _ => ("~", "33"),
     };
-    let unit = if row.unit == "1" { "" } else { &row.unit };
-    let number = |v: Option<f64>| v.map_or("-".to_owned(), |v| format!("{} {unit}", short(v)));
     let verdict = format!("{mark} {:<15}", row.verdict);
     let verdict = if colours { format!("\x1b[{colour}m{verdict}\x1b[0m") } else { verdict };
-    let numbers = match (row.printed, row.ours) {
-        (None, None) => String::new(),
-        (printed, ours) => format!("printed {}, ours {}", number(printed), number(ours)),
-    };
-    format!("{verdict} {:<width$}  {numbers}", row.id).trim_end().to_owned()
+    let numbers = numbers(row).map(|text| if text.is_empty() { "-".to_owned() } else { text });
+    format!("{verdict} {:<width$}  printed {}, ours {}", row.id, numbers[0], numbers[1])
 }
 
-/// Four significant digits; two where a power of ten is needed.
-pub(crate) fn short(value: f64) -> String {
-    if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
-        let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-        format!("{rounded}")
-    } else {
-        format!("{value:.1e}")
-    }
+/// The printed number and ours, with the unit; a value lost in its error is 0.
+pub(crate) fn numbers(row: &ClaimRow) -> [String; 2] {
+    let unit = if row.unit == "1" { "" } else { &row.unit };
+    let ours = row.ours.map(|v| if v.abs() <= row.error.unwrap_or(0.0) { 0.0 } else { v });
+    [row.printed, ours].map(|value| {
+        let text = value.map_or(String::new(), |v| format!("{} {unit}", four_digits(v)));
+        text.trim_end().to_owned()
+    })
 }

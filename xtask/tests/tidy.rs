@@ -49,7 +49,12 @@ fn copy(from: &Path, to: &Path) {
 
 fn add(path: &Path, text: &str) {
     let old = fs::read_to_string(path).unwrap_or_default();
-    fs::write(path, old + text).expect("a file");
+    let section = "[dependencies]\n";
+    let new = match old.split_once(section) {
+        Some((head, tail)) => format!("{head}{section}{text}{tail}"),
+        None => old + text,
+    };
+    fs::write(path, new).expect("a file");
 }
 
 #[test]

@@ -184,3 +184,96 @@ fn a_new_experiment_runs_as_it_stands() {
     assert_eq!(ran.code, Some(0), "{ran:?}");
     assert!(project.path().join("reports/index.html").is_file());
 }
+
+/// The real experiment with one thing changed.
+fn real(from: &str, to: &str) -> String {
+    assert!(REAL.contains(from), "the γ sweep has no `{from}`");
+    REAL.replacen(from, to, 1)
+}
+
+#[test]
+fn a_slip_in_a_claim_cannot_change_its_verdict() {
+    let text = real("expect = \"rate-independent\"", "expect = \"rate-indpendent\"");
+    refused(&text, &[".check.expect", "did you mean `rate-independent`?"]);
+    let text = real(", expect = \"static\"", "");
+    refused(&text, &[".check.expect", "one of static, semilinear, generalized"]);
+    for (to, words) in [
+        ("{ value = 2.6, digits = 0, unit = \"J\" }", "from 1 to 17"),
+        ("{ value = 0.0, digits = 2, unit = \"J\" }", "not zero"),
+        ("{ value = inf, digits = 2, unit = \"J\" }", "finite"),
+        ("{ value = 2.6, digits = 2, unit = \"N\" }", "the unit of fig01.gamma=1.area"),
+    ] {
+        let text = real("{ value = 2.6, digits = 2, unit = \"J\" }", to);
+        refused(&text, &[&line(&text, "printed = "), "claim[0].printed", words]);
+    }
+    let text = real(
+        "name = \"corollary-1\", study = \"fig01\", gamma = 1.0",
+        "name = \"corollary-1\", study = \"fig01\"",
+    );
+    refused(&text, &["claim[1].check", "6 points of the sweep"]);
+    let text = real(
+        "name = \"corollary-1\", study = \"fig01\", gamma = 1.0",
+        "name = \"corollary-1\", study = \"fig02-coulomb\"",
+    );
+    refused(&text, &["claim[1].check.study", "a study of the dahl model"]);
+    refused(
+        &real("figure  = \"fig01\"", "figure  = \"fig1\""),
+        &["claim[0].figure", "did you mean `fig01`?"],
+    );
+}
+
+#[test]
+fn a_measure_that_cannot_be_taken_is_refused_before_anything_runs() {
+    let from = "quantity = \"saturation_travel\", gamma = 0.25";
+    refused(
+        &real(from, "quantity = \"saturation_travel\", gamma = 1.0"),
+        &["measure[", "].what", "never arrives"],
+    );
+    refused(&real("unit  = \"J\"", "unit  = \"kg\""), &["].unit", "`kg`", "`J`"]);
+}
+
+#[test]
+fn controls_out_of_order_or_twice_are_refused() {
+    refused(&changed("steps     = [33, 65]", "steps = [65, 33]"), &["study[0].steps", "ascending"]);
+    refused(&changed("steps     = [33, 65]", "steps = [33, 33]"), &["study[0].steps", "each once"]);
+    refused(
+        &changed("rtol      = [1e-3, 1e-6]", "rtol = [1e-6, 1e-3]"),
+        &["study[0].rtol", "descending"],
+    );
+    let text = changed("corners   = [\"restart\"]", "corners = [\"restart\", \"restart\"]");
+    refused(&text, &["study[0].corners", "each once"]);
+    let text = changed("sigma = 1.5 }", "sigma = 1.5, gamma = 1.0 }");
+    refused(&text, &["study[0].sweep.gamma", "not in both"]);
+}
+
+#[test]
+fn sizes_that_would_take_for_ever_are_refused() {
+    refused(&changed("f_c = 0.75", "f_c = 1e-310"), &["study[0].model.f_c", "from 1e-60"]);
+    let many = (0..2000).map(|i| format!("{}.0", i + 1)).collect::<Vec<_>>().join(", ");
+    let sweep = format!("sweep = {{ f_c = [{many}], gamma = [{many}], sigma = [{many}] }}");
+    let text = changed("sweep     = { gamma = [1.0, 2.0] }", &sweep)
+        .replace("f_c = 0.75, sigma = 1.5", "");
+    let text = text.replace("{ name = \"dahl\",  }", "{ name = \"dahl\" }");
+    refused(&text, &["study[0].sweep", "more than 10000 points"]);
+}
+
+#[test]
+fn a_wrong_type_is_told_with_its_key() {
+    refused(
+        &changed("periods   = 1", "periods   = \"one\""),
+        &["study[0].periods", "string \"one\""],
+    );
+    refused(&changed("title     = \"The first\"\n", ""), &["study[0]", "nothing", "`title`"]);
+    let text = changed("periods   = 1", "periods   = 1\nperiods   = 2");
+    refused(&text, &["duplicate key"]);
+}
+
+#[test]
+fn a_file_that_can_name_no_experiment_is_refused() {
+    for name in ["a b.toml", "Ü.toml", "<b>.toml", ".toml.toml"] {
+        let project = Project::new(&[(name, &small("\"rk4\""))]);
+        let ran = project.run(&["reproduce"]);
+        assert_eq!(ran.code, Some(4), "{name}: {ran:?}");
+        assert!(project.files("reports").is_empty());
+    }
+}

@@ -88,7 +88,7 @@ impl Parameters {
 
     /// The positive, finite number under `key`; `quantity` is its name and unit, as "force [N]".
     pub fn positive(&self, key: &str, quantity: &str) -> Result<f64, ParameterError> {
-        self.scalar(key, |v| v > 0.0, &format!("a positive, finite {quantity}"))
+        self.scalar(key, admits, &format!("a positive, finite {quantity}, from 1e-60 to 1e60"))
     }
 
     /// The finite number under `key` that is zero or more.
@@ -98,7 +98,7 @@ impl Parameters {
 
     /// The list of positive, finite numbers under `key`, at least one.
     pub fn positives(&self, key: &str, quantity: &str) -> Result<Vec<f64>, ParameterError> {
-        let expected = format!("a list of positive, finite {quantity}");
+        let expected = format!("a list of positive, finite {quantity}, from 1e-60 to 1e60");
         match self.get(key, &expected)? {
             Parameter::List(list) if !list.is_empty() && list.iter().all(|v| admits(*v)) => {
                 Ok(list.clone())
@@ -127,8 +127,9 @@ impl Parameters {
     }
 }
 
+/// Positive and of a size that products and quotients of a few of them do not leave the range of f64.
 fn admits(v: f64) -> bool {
-    v.is_finite() && v > 0.0
+    (1e-60..=1e60).contains(&v)
 }
 
 fn invalid(key: &str, found: &Parameter, expected: &str) -> ParameterError {

@@ -128,7 +128,7 @@ fn a_wrong_parameter_is_named_with_what_was_expected() {
 fn messages_carry_value_and_unit() {
     let parameters: Parameters = [("f_c", -0.75)].into_iter().collect();
     let message = (MODELS[0].build)(&parameters).unwrap_err().to_string();
-    assert_eq!(message, "f_c = -0.75: expected a positive, finite force [N]");
+    assert_eq!(message, "f_c = -0.75: expected a positive, finite force [N], from 1e-60 to 1e60");
     let lists = [("k", vec![1.0, 2.0]), ("delta", vec![1.0])];
     let message = (MODELS[3].build)(&lists.into_iter().collect()).unwrap_err().to_string();
     assert_eq!(
@@ -230,5 +230,17 @@ proptest! {
 fn every_parameter_has_its_unit() {
     for entry in MODELS {
         assert_eq!(entry.keys.len(), entry.units.len(), "{}", entry.name);
+    }
+}
+
+#[test]
+fn the_jacobian_is_zero_at_the_kink_where_no_slope_exists() {
+    for gamma in [0.0, 0.25, 0.5] {
+        let dahl = duhem::Dahl { f_c: 0.75, sigma: 1.5, gamma };
+        for (force, u_dot) in [(0.75, 0.1), (-0.75, -0.1)] {
+            let mut slope = [f64::NAN];
+            dahl.jacobian(&[force], 0.0, u_dot, &mut slope);
+            assert!(slope[0] == 0.0, "γ = {gamma}: slope {} at F = {force} N", slope[0]);
+        }
     }
 }

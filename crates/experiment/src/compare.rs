@@ -3,7 +3,7 @@
 //! Errors are taken at the solver's own accepted steps, with no interpolation of ours in between, and are
 //! relative to the largest force of the exact answer.
 
-use crate::plan::{Case, Plan, corners_name, fixed_step};
+use crate::plan::{Case, Plan, control_name, corners_name};
 use duhem::closed_form::Reference;
 use integrate::{Outcome, Run, Trajectory};
 use record::{CaseRecord, CaseRow, History};
@@ -60,7 +60,7 @@ pub(crate) fn record(
     let row = CaseRow {
         solver: case.solver.name.to_owned(),
         library: case.solver.library.to_owned(),
-        control: if fixed_step(case.solver) { "step" } else { "rtol" }.to_owned(),
+        control: control_name(case.solver).to_owned(),
         value: case.value,
         corners: corners_name(case.corners).to_owned(),
         status,

@@ -122,7 +122,7 @@ pub(crate) fn fill(text: &str, measures: &[MeasureRow]) -> String {
 }
 
 /// Four significant digits, without an exponent where that reads well.
-pub(crate) fn four_digits(value: f64) -> String {
+pub fn four_digits(value: f64) -> String {
     if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
         let scientific = format!("{value:.3e}");
         let rounded: f64 = scientific.parse().unwrap_or(value);

@@ -22,6 +22,7 @@ mod summary;
 pub use compare::NEAR_A_KINK;
 pub use drift::{Drift, drift};
 pub use error::ExperimentError;
+pub use judge::four_digits;
 pub use plan::{
     Case, Claim, Decision, Irreproducible, Measure, Plan, Point, Study, Subject, corners_name,
     fixed_step,

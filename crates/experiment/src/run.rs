@@ -2,7 +2,7 @@
 
 use crate::{
     ExperimentError, compare,
-    plan::{Case, Plan, corners_name, fixed_step},
+    plan::{Case, Plan, control_name, corners_name, fixed_step},
 };
 use integrate::{Control, Limits};
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
@@ -180,7 +180,10 @@ fn watched(
         Err(RecvTimeoutError::Timeout) => Ok(given_up(&plan.cases[index], watchdog)),
         Err(RecvTimeoutError::Disconnected) => {
             let panic = handle.join().err();
-            let words = panic.as_ref().and_then(|p| p.downcast_ref::<String>()).cloned();
+            let words = panic.as_ref().and_then(|p| {
+                let text = p.downcast_ref::<&str>().map(ToString::to_string);
+                p.downcast_ref::<String>().cloned().or(text)
+            });
             let case = &plan.cases[index];
             let words = words.unwrap_or_else(|| "no words".to_owned());
             Err(ExperimentError::Bug(format!(
@@ -195,7 +198,7 @@ fn given_up(case: &Case, watchdog: Duration) -> CaseRecord {
     let row = CaseRow {
         solver: case.solver.name.to_owned(),
         library: case.solver.library.to_owned(),
-        control: if fixed_step(case.solver) { "step" } else { "rtol" }.to_owned(),
+        control: control_name(case.solver).to_owned(),
         value: case.value,
         corners: corners_name(case.corners).to_owned(),
         status: WATCHDOG.to_owned(),
@@ -223,4 +226,73 @@ fn compute(plan: &Plan, case: &Case) -> Result<CaseRecord, String> {
     let limits = Limits { evaluations: study.budget };
     let run = integrate::solve(case.solver, &problem, &control, case.corners, &limits);
     Ok(compare::record(plan, case, &run, &motion, reference.as_ref()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::key;
+    use crate::Plan;
+    use std::{collections::BTreeSet, path::Path};
+
+    const BASE: &str = r#"
+title = "t"
+paper = "p"
+text = "x"
+budget = 1000
+[[study]]
+name = "s"
+title = "t"
+model = { name = "dahl", f_c = 0.75, sigma = 1.5, gamma = 1.0 }
+input = { shape = "sine", amplitude = 1.0, omega = 0.1 }
+periods = 1
+initial = [0.0]
+solvers = ["dopri5"]
+rtol = [1e-3]
+corners = ["restart"]
+reference = "dahl"
+"#;
+
+    fn of(text: &str) -> String {
+        let plan = Plan::from_text("t", Path::new("t.toml"), text, &[]).unwrap();
+        key(&plan, &plan.cases[0]).as_str().to_owned()
+    }
+
+    #[test]
+    fn everything_that_determines_a_case_is_in_its_key() {
+        let changes = [
+            ("f_c = 0.75", "f_c = 0.76"),
+            ("sigma = 1.5", "sigma = 1.6"),
+            ("gamma = 1.0", "gamma = 1.1"),
+            ("\"sine\"", "\"triangle\""),
+            ("amplitude = 1.0", "amplitude = 1.1"),
+            ("omega = 0.1", "omega = 0.2"),
+            ("periods = 1", "periods = 2"),
+            ("initial = [0.0]", "initial = [0.1]"),
+            ("dopri5", "tsit45"),
+            ("1e-3", "1e-4"),
+            ("restart", "ignore"),
+            ("budget = 1000", "budget = 2000"),
+            (
+                "corners =",
+                "history = [{ solver = \"dopri5\", rtol = 1e-3, corners = \"restart\" }]\ncorners =",
+            ),
+        ];
+        let mut keys = BTreeSet::from([of(BASE)]);
+        for (from, to) in changes {
+            let text = BASE.replacen(from, to, 1);
+            assert_ne!(text, BASE, "no `{from}` to change");
+            assert!(keys.insert(of(&text)), "`{to}` has the key of another case");
+        }
+    }
+
+    #[test]
+    fn names_and_texts_are_not_in_the_key() {
+        for (from, to) in [
+            ("name = \"s\"", "name = \"r\""),
+            ("title = \"t\"", "title = \"u\""),
+            ("text = \"x\"", "text = \"y\""),
+        ] {
+            assert_eq!(of(&BASE.replacen(from, to, 1)), of(BASE), "{to}");
+        }
+    }
 }

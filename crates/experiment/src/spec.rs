@@ -305,8 +305,36 @@ fn syntax(path: &Path, text: &str, error: &toml::de::Error) -> ExperimentError {
         let complaint = Complaint::new(field, "an unknown key", one_of(field, known));
         return at(path, line, complaint);
     }
+    let tree = DeTable::parse(text).ok();
+    let key = tree.and_then(|tree| key_at(tree.get_ref(), span.start));
+    let key = key.unwrap_or_else(|| "TOML".to_owned());
+    if let Some(missing) = message.strip_prefix("missing field ") {
+        return at(path, line, Complaint::new(key, "nothing", format!("a key {missing}")));
+    }
+    if let Some((found, expected)) =
+        message.strip_prefix("invalid type: ").and_then(|rest| rest.split_once(", expected "))
+    {
+        return at(path, line, Complaint::new(key, found, expected));
+    }
     let written = text.get(span).unwrap_or("").lines().next().unwrap_or("");
     let short: String = written.chars().take(40).collect();
-    let found = if short.is_empty() { "this".to_owned() } else { format!("`{short}`") };
-    at(path, line, Complaint::new("TOML", found, message))
+    let found = if short.is_empty() { message } else { format!("`{short}`: {message}") };
+    at(path, line, Complaint::new(key, found, "TOML that can be read"))
+}
+
+/// The innermost key that stands at `offset` or whose value does, as `study[0].model.gamma`.
+/// A table's own span is that of its header only, so every table is looked into.
+fn key_at(table: &DeTable, offset: usize) -> Option<String> {
+    table.iter().find_map(|(name, value)| {
+        let inside = |value: &DeValue| value.as_table().and_then(|inner| key_at(inner, offset));
+        let items = value.get_ref().as_array().into_iter().flatten().enumerate();
+        let in_item = items.filter_map(|(i, item)| {
+            let inner = inside(item.get_ref()).map(|key| format!("[{i}].{key}"));
+            inner.or_else(|| item.span().contains(&offset).then(|| format!("[{i}]")))
+        });
+        let inner = in_item.last().or_else(|| inside(value.get_ref()).map(|key| format!(".{key}")));
+        let here = name.span().contains(&offset) || value.span().contains(&offset);
+        let tail = inner.or_else(|| here.then(String::new))?;
+        Some(format!("{}{tail}", name.get_ref()))
+    })
 }

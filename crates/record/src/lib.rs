@@ -18,7 +18,7 @@ pub use file::write_whole;
 pub use rows::{
     AboutRow, CaseRow, ClaimRow, CurveRow, FigureRow, MeasureRow, OrderRow, PanelRow, StudyRow,
 };
-pub use store::{CaseRecord, Found, History, Key, Store};
+pub use store::{CaseRecord, Found, History, Key, Store, sha256};
 pub use summary::Summary;
 pub use table::{Cell, Table};
 

@@ -34,13 +34,11 @@ pub struct Key(String);
 impl Key {
     /// The key of these parts, in this order; no two lists of parts give the same text to hash.
     pub fn of(parts: &[&str]) -> Self {
-        let mut hash = Sha256::new();
-        hash.update(format!("duhem record {FORMAT}\n"));
+        let mut text = format!("duhem record {FORMAT}\n");
         for part in parts {
-            hash.update(format!("{}\n", part.len()));
-            hash.update(part);
+            let _ = writeln!(text, "{}\n{part}", part.len());
         }
-        Self(hex(&hash.finalize()))
+        Self(sha256(text.as_bytes()))
     }
 
     /// The key as text.
@@ -104,7 +102,7 @@ impl Store {
 
 /// The first line of a record's file: format and checksum of the rest.
 fn seal(body: &str) -> String {
-    format!("duhem record {FORMAT} sha256 {}", hex(&Sha256::digest(body)))
+    format!("duhem record {FORMAT} sha256 {}", sha256(body.as_bytes()))
 }
 
 fn open(bytes: &[u8]) -> Result<CaseRecord, String> {
@@ -117,8 +115,9 @@ fn open(bytes: &[u8]) -> Result<CaseRecord, String> {
     serde_json::from_str(body).map_err(|e| e.to_string())
 }
 
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::new(), |mut text, byte| {
+/// The SHA-256 of these bytes, in hexadecimal.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");
         text
     })

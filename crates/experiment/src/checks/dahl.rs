@@ -8,15 +8,19 @@ use duhem::{
         dahl::{
             Loop, Trajectory, advance, contraction, falling, falling_as_printed, rising, travel,
         },
+        second_way,
         semilinear::{self, Semilinear},
     },
 };
 
 /// A check and the place of its code.
 macro_rules! check {
-    ($name:literal, $run:ident) => {
+    ($name:literal, $run:ident, many: $many:literal) => {
         Check {
             name: $name,
+            model: "dahl",
+            expects: &[],
+            many: $many,
             code: concat!("crates/experiment/src/checks/dahl.rs, ", stringify!($run)),
             run: $run,
         }
@@ -24,15 +28,16 @@ macro_rules! check {
 }
 
 /// Corollary 1: equation 17 is the limiting loop, and Theorem 1's equation 10 the same.
-pub(super) const COROLLARY_1: Check = check!("corollary-1", corollary_1);
+pub(super) const COROLLARY_1: Check = check!("corollary-1", corollary_1, many: false);
 /// The limiting loop does not depend on F(0).
-pub(super) const LOCAL_MEMORY: Check = check!("local-memory", local_memory);
+pub(super) const LOCAL_MEMORY: Check = check!("local-memory", local_memory, many: false);
 /// F changes sign after u̇ does.
-pub(super) const FRICTION_LAG: Check = check!("friction-lag", friction_lag);
+pub(super) const FRICTION_LAG: Check = check!("friction-lag", friction_lag, many: true);
 /// Equation 14 equals equation 11.
-pub(super) const EQUATION_14: Check = check!("equation-14", equation_14);
+pub(super) const EQUATION_14: Check = check!("equation-14", equation_14, many: false);
 /// F reaches F_C in finite travel if and only if γ < 1.
-pub(super) const FINITE_SATURATION: Check = check!("finite-saturation", finite_saturation);
+pub(super) const FINITE_SATURATION: Check =
+    check!("finite-saturation", finite_saturation, many: true);
 
 /// Points at which loops are compared.
 const POINTS: u32 = 400;
@@ -134,18 +139,21 @@ fn local_memory(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
 
 fn friction_lag(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
     let range = plan.studies[subject.study].input.range();
-    let loops: Vec<Loop> = dahls(plan, subject)?.iter().map(|d| Loop::new(d, range)).collect();
-    let shortest = loops.iter().map(Loop::lag).fold(f64::INFINITY, f64::min);
-    let second = loops.iter().zip(dahls(plan, subject)?).map(|(l, dahl)| {
-        let force = advance(&dahl, l.force_at_u_max, -l.lag());
-        force.abs() / dahl.sigma
-    });
+    let (mut lags, mut shortest, mut error) = (true, f64::INFINITY, 0.0_f64);
+    for dahl in dahls(plan, subject)? {
+        let (settled, second) = (Loop::new(&dahl, range), second_way::Loop::new(&dahl, range));
+        // A force that still has the sign of the motion when the motion turns is behind it.
+        lags &= settled.force(range.1, true) > 0.0 && settled.force(range.0, false) < 0.0;
+        shortest = shortest.min(settled.lag());
+        error = error.max((settled.lag() - second.lag()).abs());
+    }
     Ok(Checked {
-        holds: shortest > 0.0,
+        holds: lags,
         value: Some(shortest),
-        error: Some(second.fold(f64::EPSILON * shortest, f64::max)),
+        error: Some(error.max(4.0 * f64::EPSILON * shortest)),
         unit: "m",
-        how: "travel from the reversal to F = 0 on the settled loop; holds if it is positive"
+        how: "travel from the reversal to F = 0 on the settled loop; holds if at both reversals F still has the \
+              sign of the motion that ends"
             .to_owned(),
     })
 }
@@ -175,11 +183,14 @@ const SHORT_OF: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
 fn finite_saturation(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
     let (mut longest, mut holds, mut grown) = (0.0_f64, true, f64::INFINITY);
+    let mut error = 0.0_f64;
     for dahl in dahls(plan, subject)? {
         let whole = travel(&dahl, -dahl.f_c, dahl.f_c);
         if dahl.gamma < 1.0 {
             let whole = whole.ok_or("no travel for γ < 1")?;
             longest = longest.max(whole);
+            let second = second_way::saturation_travel(&dahl).ok_or("no travel a second way")?;
+            error = error.max((whole - second).abs());
             // Arrived within the travel, and not before it.
             holds &= advance(&dahl, -dahl.f_c, whole * (1.0 + 1e-12)) == dahl.f_c;
             holds &= advance(&dahl, -dahl.f_c, whole * 0.99) < dahl.f_c;
@@ -196,7 +207,7 @@ fn finite_saturation(plan: &Plan, subject: &Subject) -> Result<Checked, String> 
     Ok(Checked {
         holds,
         value: Some(longest),
-        error: Some(1e-12 * longest),
+        error: Some(error.max(4.0 * f64::EPSILON * longest)),
         unit: "m",
         how: format!(
             "longest travel from −F_C to F_C among γ < 1; for γ ≥ 1 there is none: each factor 10⁻³ nearer to F_C \

@@ -14,6 +14,9 @@ const POINTS: u32 = 2000;
 /// The way the loop is run through with u horizontal and F vertical, against `expect`.
 pub(super) const ORIENTATION: Check = Check {
     name: "orientation",
+    model: "dahl",
+    expects: &["clockwise", "counterclockwise"],
+    many: false,
     code: "crates/experiment/src/checks/energy.rs, turning",
     run: turning,
 };

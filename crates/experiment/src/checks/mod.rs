@@ -28,6 +28,12 @@ pub struct Check {
     pub name: &'static str,
     /// Where the code is.
     pub code: &'static str,
+    /// The model it is made for; empty for any.
+    pub model: &'static str,
+    /// What it can be told to expect; empty if it needs no telling.
+    pub expects: &'static [&'static str],
+    /// Whether it looks at several points of a sweep, or at one.
+    pub many: bool,
     /// Looks whether it holds.
     pub run: fn(&Plan, &Subject) -> Result<Checked, String>,
 }

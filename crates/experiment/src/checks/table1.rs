@@ -2,22 +2,34 @@
 
 use super::{Check, Checked};
 use crate::plan::{Plan, Subject};
-use duhem::FrictionModel;
+use duhem::{FrictionModel, form};
 
 /// The type of Duhem model: `static`, `semilinear` or `generalized`.
 pub(super) const DUHEM_TYPE: Check = Check {
     name: "duhem-type",
+    model: "",
+    expects: &["static", "semilinear", "generalized"],
+    many: true,
     code: "crates/experiment/src/checks/table1.rs, duhem_type",
     run: duhem_type,
 };
 
 /// Rate dependence: `rate-independent` or `rate-dependent`.
-pub(super) const RATE: Check =
-    Check { name: "rate", code: "crates/experiment/src/checks/table1.rs, rate", run: rate };
+pub(super) const RATE: Check = Check {
+    name: "rate",
+    model: "",
+    expects: &["rate-independent", "rate-dependent"],
+    many: true,
+    code: "crates/experiment/src/checks/table1.rs, rate",
+    run: rate,
+};
 
 /// Continuity of the right-hand side in the state: `discontinuous`, `not-lipschitz` or `lipschitz`.
 pub(super) const CONTINUITY: Check = Check {
     name: "continuity",
+    model: "",
+    expects: &["discontinuous", "not-lipschitz", "lipschitz"],
+    many: true,
     code: "crates/experiment/src/checks/table1.rs, continuity",
     run: continuity,
 };
@@ -71,10 +83,11 @@ fn duhem_type(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
                 here = here.max(largest(second));
             }
         }
-        names.push(match (model.states(), here < ROUNDING) {
-            (0, _) => "static",
-            (_, true) => "semilinear",
-            (_, false) => "generalized",
+        names.push(match (model.states(), has_product_form(model), here < ROUNDING) {
+            (0, ..) => "static",
+            (_, false, _) => "no Duhem model",
+            (_, true, true) => "semilinear",
+            (_, true, false) => "generalized",
         });
         bend = bend.max(here);
     }
@@ -86,8 +99,22 @@ fn duhem_type(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
         unit: "1",
         how: format!(
             "largest second difference of dx/du in the state, relative to its size at zero; affine (semilinear) \
-             below {ROUNDING:e}: found {found}"
+             below {ROUNDING:e}, and ẋ the product f g of its Duhem form: found {found}"
         ),
+    })
+}
+
+/// Whether ẋ is the product of f(x, u) and g(u̇) that the model gives as its Duhem form.
+fn has_product_form(model: &dyn FrictionModel) -> bool {
+    let Some(form) = model.form() else { return false };
+    PROBES.iter().all(|share| {
+        [1.0, -1.0, 0.3, -20.0].iter().all(|u_dot| {
+            let x: Vec<f64> = model.scale().iter().map(|scale| share * scale).collect();
+            let (ours, product) =
+                (x_dot(model, *share, *u_dot), form::x_dot(form, &x, 0.0, *u_dot));
+            let size = largest(ours.iter().copied()).max(f64::MIN_POSITIVE);
+            largest((0..ours.len()).map(|i| (ours[i] - product[i]) / size)) < ROUNDING
+        })
     })
 }
 

@@ -116,6 +116,11 @@ pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint>
                 "one: name a value of each swept parameter",
             )));
         }
+        fits(quantity.model, &studies[subject.study]).map_err(|c| under(c.under("what")))?;
+        if written.unit != quantity.unit {
+            let expected = format!("`{}`, the unit of {}", quantity.unit, quantity.name);
+            return Err(under(Complaint::new("unit", format!("`{}`", written.unit), expected)));
+        }
         let (id, unit) = (written.id.clone(), written.unit.clone());
         measures.push(Measure { id, unit, subject, quantity });
     }
@@ -123,6 +128,12 @@ pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint>
     for (i, written) in spec.claim.iter().enumerate() {
         for id in crate::judge::placeholders(&written.why) {
             known(spec, id).map_err(|c| c.under(&format!("claim[{i}].why")))?;
+        }
+        if !written.figure.is_empty() && !spec.figure.iter().any(|f| f.name == written.figure) {
+            let known = spec.figure.iter().map(|f| f.name.as_str());
+            let expected = one_of(&written.figure, known);
+            let key = format!("claim[{i}].figure");
+            return Err(Complaint::new(key, format!("`{}`", written.figure), expected));
         }
         let claim = claim(written, &measures, studies);
         claims.push(claim.map_err(|c| c.under(&format!("claim[{i}]")))?);
@@ -193,15 +204,70 @@ fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result
             let check = CHECKS.iter().find(|c| c.name == name).ok_or_else(|| {
                 Complaint::new("check.name", format!("`{name}`"), one_of(name, known))
             })?;
-            Decision::Check(check, subject(table, "name", studies).map_err(|c| c.under("check"))?)
+            let subject = subject(table, "name", studies).map_err(|c| c.under("check"))?;
+            told(check, &subject, &studies[subject.study]).map_err(|c| c.under("check"))?;
+            Decision::Check(check, subject)
         }
         _ => return Err(Complaint::new("", "both or neither", "a `measure` or a `check`")),
     };
-    if matches!(decision, Decision::Measure(_)) != written.printed.is_some() {
-        let expected = "a printed number with a `measure`, none with a `check`";
-        return Err(Complaint::new("printed", "this", expected));
+    match (&decision, &written.printed) {
+        (Decision::Measure(index), Some(number)) => {
+            printed(number, &measures[*index]).map_err(|c| c.under("printed"))?;
+        }
+        (Decision::Check(..), None) => {}
+        _ => {
+            let expected = "a printed number with a `measure`, none with a `check`";
+            return Err(Complaint::new("printed", "this", expected));
+        }
     }
     Ok(Claim { written: written.clone(), printed: written.printed.clone(), decision })
+}
+
+/// Whether a quantity or a check is made for the study's model.
+fn fits(model: &str, study: &Study) -> Result<(), Complaint> {
+    if model.is_empty() || model == study.model.name {
+        return Ok(());
+    }
+    let found = format!("`{}`, whose model is {}", study.name, study.model.name);
+    Err(Complaint::new("study", found, format!("a study of the {model} model")))
+}
+
+/// Whether a check is told what it needs, no more and no less.
+fn told(check: &Check, subject: &Subject, study: &Study) -> Result<(), Complaint> {
+    fits(check.model, study)?;
+    if !check.many && subject.points.len() != 1 {
+        let found = format!("{} points of the sweep", subject.points.len());
+        return Err(Complaint::new("", found, "one: name a value of each swept parameter"));
+    }
+    let expect = subject.expect.as_str();
+    match (check.expects.is_empty(), check.expects.contains(&expect)) {
+        (true, _) if !expect.is_empty() => Err(Complaint::new(
+            "expect",
+            format!("`{expect}`"),
+            "none: this check needs no telling",
+        )),
+        (false, false) => {
+            let expected = one_of(expect, check.expects.iter().copied());
+            Err(Complaint::new("expect", format!("`{expect}`"), expected))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether a printed number can be compared with the measure.
+fn printed(number: &PrintedSpec, measure: &Measure) -> Result<(), Complaint> {
+    if !(number.value.is_finite() && number.value != 0.0) {
+        return Err(Complaint::new("value", number.value.to_string(), "a finite number, not zero"));
+    }
+    if !(1..=17).contains(&number.digits) {
+        let expected = "how many significant digits are printed, from 1 to 17";
+        return Err(Complaint::new("digits", number.digits.to_string(), expected));
+    }
+    if number.unit != measure.unit {
+        let expected = format!("`{}`, the unit of {}", measure.unit, measure.id);
+        return Err(Complaint::new("unit", format!("`{}`", number.unit), expected));
+    }
+    Ok(())
 }
 
 fn irreproducible(

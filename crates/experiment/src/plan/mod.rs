@@ -14,8 +14,7 @@ use crate::{
 };
 use integrate::{Corners, Solver};
 use record::RecordError;
-use sha2::{Digest, Sha256};
-use std::{collections::BTreeSet, fmt::Write, fs, path::Path};
+use std::{collections::BTreeSet, fs, path::Path};
 
 /// The most evaluations a case may use if the experiment does not say otherwise.
 const BUDGET: f64 = 5e6;
@@ -71,6 +70,11 @@ pub fn fixed_step(solver: &Solver) -> bool {
     matches!(solver.order, integrate::Order::Fixed(_))
 }
 
+/// What a solver's steps are controlled by: `step` or `rtol`.
+pub(crate) fn control_name(solver: &Solver) -> &'static str {
+    if fixed_step(solver) { "step" } else { "rtol" }
+}
+
 /// `restart` or `ignore`.
 pub fn corners_name(corners: Corners) -> &'static str {
     match corners {
@@ -95,7 +99,7 @@ impl Plan {
         Self::from_text(&name, path, &text, kinds)
     }
 
-    fn from_text(
+    pub(crate) fn from_text(
         name: &str,
         path: &Path,
         text: &str,
@@ -147,9 +151,9 @@ fn check(name: &str, text: &str, spec: &Spec, kinds: &[&str]) -> Result<Plan, Co
         return Err(Complaint::new("study", found, format!("at most {MOST_CASES}")));
     }
     let judged = judged::check(spec, &studies)?;
-    Ok(Plan {
+    let plan = Plan {
         name: name.to_owned(),
-        spec_hash: sha256(text),
+        spec_hash: record::sha256(text.as_bytes()),
         title: spec.title.clone(),
         paper: spec.paper.clone(),
         text: spec.text.clone(),
@@ -159,21 +163,33 @@ fn check(name: &str, text: &str, spec: &Spec, kinds: &[&str]) -> Result<Plan, Co
         measures: judged.measures,
         claims: judged.claims,
         irreproducible: judged.irreproducible,
-    })
+    };
+    answerable(&plan)?;
+    Ok(plan)
 }
 
-fn sha256(text: &str) -> String {
-    Sha256::digest(text).iter().fold(String::new(), |mut out, byte| {
-        let _ = write!(out, "{byte:02x}");
-        out
-    })
+/// What has no answer, as the travel to a force that is never reached, is found before anything runs.
+fn answerable(plan: &Plan) -> Result<(), Complaint> {
+    for (i, measure) in plan.measures.iter().enumerate() {
+        (measure.quantity.measure)(plan, &measure.subject).map_err(|e| {
+            Complaint::new(format!("measure[{i}].what"), e, "a quantity this model has")
+        })?;
+    }
+    for (i, claim) in plan.claims.iter().enumerate() {
+        if let Decision::Check(check, subject) = &claim.decision {
+            (check.run)(plan, subject).map_err(|e| {
+                Complaint::new(format!("claim[{i}].check"), e, "what can be checked")
+            })?;
+        }
+    }
+    Ok(())
 }
 
 fn unique<'a>(table: &str, names: impl Iterator<Item = &'a String>) -> Result<(), Complaint> {
     let mut seen = BTreeSet::new();
     for (i, name) in names.enumerate() {
         if !plain(name) {
-            let expected = "letters, digits, `-`, `_`, `.`, `=`, `*`";
+            let expected = "at most 64 letters, digits, `-`, `_`, `.`, `=`, `*`";
             return Err(Complaint::new(
                 format!("{table}[{i}].name"),
                 format!("`{name}`"),
@@ -196,7 +212,7 @@ fn unique<'a>(table: &str, names: impl Iterator<Item = &'a String>) -> Result<()
 /// Names become file names and anchors.
 fn plain(name: &str) -> bool {
     let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.=*".contains(c);
-    !name.is_empty() && name.chars().all(allowed) && !name.starts_with('.')
+    !name.is_empty() && name.len() <= 64 && name.chars().all(allowed) && !name.starts_with('.')
 }
 
 /// The cases of all studies, in the order of the tables.

@@ -12,6 +12,9 @@ use duhem::{
 use integrate::{Corners, SOLVERS, Solver};
 use std::collections::BTreeMap;
 
+/// The most points a sweep may have: more is a slip of the pen.
+const MOST_POINTS: usize = 10_000;
+
 /// One study as checked: model × input × solvers × controls.
 #[derive(Debug)]
 pub struct Study {
@@ -134,9 +137,11 @@ impl Study {
         }
         for (i, wanted) in self.history.iter().enumerate() {
             let solver = self.solvers.iter().any(|s| s.name == wanted.solver && !fixed_step(s));
-            if !(solver && self.rtol.contains(&wanted.rtol)) {
-                let found = format!("{} at rtol {:e}", wanted.solver, wanted.rtol);
-                let expected = "an adaptive solver and a tolerance of this study";
+            let corners = self.corners.iter().any(|c| corners_name(*c) == wanted.corners);
+            if !(solver && corners && self.rtol.contains(&wanted.rtol)) {
+                let found =
+                    format!("{} at rtol {:e}, {}", wanted.solver, wanted.rtol, wanted.corners);
+                let expected = "an adaptive solver, a tolerance and corners of this study";
                 return Err(Complaint::new(format!("history[{i}]"), found, expected));
             }
         }
@@ -244,6 +249,14 @@ fn points(
         if values.is_empty() {
             return Err(Complaint::new(at, "an empty list", "at least one value"));
         }
+        if base.0.contains_key(key) {
+            let expected = "the parameter in `model` or in `sweep`, not in both";
+            return Err(Complaint::new(at, "a second value", expected));
+        }
+        if points.len() * values.len() > MOST_POINTS {
+            let found = format!("more than {MOST_POINTS} points");
+            return Err(Complaint::new("sweep", found, "fewer values"));
+        }
         let grown = points.iter().flat_map(|point| {
             values.iter().map(move |value| {
                 let mut point = point.clone();
@@ -310,7 +323,24 @@ fn steps(steps: &[f64], periods: f64) -> Result<Vec<f64>, Complaint> {
             return Err(Complaint::new("steps", format!("{n:?}"), expected));
         }
     }
+    ordered("steps", steps, |a, b| a < b, "ascending")?;
     Ok(steps.to_vec())
+}
+
+/// Orders are taken between neighbours: coarse controls come first, and each once.
+fn ordered(
+    key: &str,
+    values: &[f64],
+    before: fn(f64, f64) -> bool,
+    how: &str,
+) -> Result<(), Complaint> {
+    match values.windows(2).find(|pair| !before(pair[0], pair[1])) {
+        None => Ok(()),
+        Some(pair) => {
+            let found = format!("{:e} before {:e}", pair[0], pair[1]);
+            Err(Complaint::new(key, found, format!("{how} values, each once")))
+        }
+    }
 }
 
 fn tolerances(rtol: &[f64]) -> Result<Vec<f64>, Complaint> {
@@ -319,6 +349,7 @@ fn tolerances(rtol: &[f64]) -> Result<Vec<f64>, Complaint> {
             return Err(Complaint::new("rtol", format!("{tolerance:?}"), "from 1e-14 to 0.5"));
         }
     }
+    ordered("rtol", rtol, |a, b| a > b, "descending")?;
     Ok(rtol.to_vec())
 }
 
@@ -331,6 +362,9 @@ pub(super) fn corners(names: &[String]) -> Result<Vec<Corners>, Complaint> {
             Err(Complaint::new("corners", format!("`{other}`"), expected))
         }
     };
+    if names.iter().enumerate().any(|(i, name)| names[..i].contains(name)) {
+        return Err(Complaint::new("corners", format!("{names:?}"), "each once"));
+    }
     names.iter().map(one).collect()
 }
 

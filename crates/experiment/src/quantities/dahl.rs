@@ -19,9 +19,11 @@ const QUADRATURE: &str = "double-exponential quadrature of du = dF/D±(F) and bi
 const THEOREM_1: &str = "Theorem 1, equations 9 and 10, by matrix exponentials";
 
 macro_rules! quantity {
-    ($const:ident, $name:literal, $what:literal, ($method:expr, $second:expr), $file:literal, $measure:expr) => {
+    ($const:ident, $name:literal, $unit:literal, $what:literal, ($method:expr, $second:expr), $file:literal, $measure:expr) => {
         pub(super) const $const: Quantity = Quantity {
             name: $name,
+            model: "dahl",
+            unit: $unit,
             what: $what,
             method: $method,
             second: $second,
@@ -34,6 +36,7 @@ macro_rules! quantity {
 quantity!(
     FORCE_AT_TURN,
     "force_at_turn",
+    "N",
     "force at the right turning point of the settled loop",
     (CLOSED, QUADRATURE),
     "settled.rs, Loop::new",
@@ -46,6 +49,7 @@ quantity!(
 quantity!(
     LOOP_AREA,
     "loop_area",
+    "J",
     "area of the settled loop, ∮F du",
     (CLOSED, QUADRATURE),
     "settled.rs, Loop::area",
@@ -58,6 +62,7 @@ quantity!(
 quantity!(
     FORCE_RISING_AT_ZERO,
     "force_rising_at_zero",
+    "N",
     "force of the settled loop at u = 0, u increasing",
     (CLOSED, QUADRATURE),
     "settled.rs, Loop::force",
@@ -70,6 +75,7 @@ quantity!(
 quantity!(
     LAG,
     "lag",
+    "m",
     "displacement from the turning point to F = 0",
     (CLOSED, QUADRATURE),
     "settled.rs, Loop::lag",
@@ -82,6 +88,7 @@ quantity!(
 quantity!(
     SATURATION_TRAVEL,
     "saturation_travel",
+    "m",
     "displacement from F = −F_C to F = F_C",
     (CLOSED, QUADRATURE),
     "mod.rs, saturation_travel",
@@ -96,6 +103,7 @@ quantity!(
 quantity!(
     FIRST_PERIOD_WORK,
     "first_period_work",
+    "J",
     "work of friction over the first period, from the initial force",
     (CLOSED, QUADRATURE),
     "work.rs, work_over",
@@ -110,6 +118,7 @@ quantity!(
 quantity!(
     CONTRACTION,
     "contraction",
+    "1",
     "left side of (16): what is left of a difference in force after one period",
     (CLOSED, THEOREM_1),
     "corollary.rs, contraction",
@@ -125,6 +134,7 @@ quantity!(
 quantity!(
     ALPHA_PLUS,
     "alpha_plus",
+    "N",
     "α₊ of (17): force at the left turning point",
     (CLOSED, QUADRATURE),
     "corollary.rs, alpha_plus",
@@ -139,6 +149,7 @@ quantity!(
 quantity!(
     F_MINUS_AT_ZERO,
     "f_minus_at_zero",
+    "N",
     "F₋(0) of (17) with the sign mended",
     (CLOSED, QUADRATURE),
     "corollary.rs, falling",
@@ -152,6 +163,7 @@ quantity!(
 quantity!(
     F_MINUS_AT_ZERO_AS_PRINTED,
     "f_minus_at_zero_as_printed",
+    "N",
     "F₋(0) of (17) to the letter",
     ("closed form", "the mended F₋ plus what the misprint adds, 2 F_C sinh(βσ/(2F_C))"),
     "corollary.rs, falling_as_printed",
@@ -168,6 +180,7 @@ quantity!(
 quantity!(
     SPEED_AT_ZERO_FORCE,
     "speed_at_zero_force",
+    "m/s",
     "speed when F passes zero on the settled loop, a magnitude",
     (CLOSED, "the lag by quadrature, the speed from the input at the time found by bisection"),
     "settled.rs, Loop::lag",
@@ -186,12 +199,6 @@ quantity!(
 fn model<'a>(plan: &'a Plan, subject: &Subject) -> Result<(Dahl, &'a Study), String> {
     let study = &plan.studies[subject.study];
     let point = &study.points[*subject.points.first().ok_or("no point of the sweep")?];
-    if study.model.name != "dahl" {
-        return Err(format!(
-            "it is a quantity of the Dahl model, and `{}` is {}",
-            study.name, study.model.name
-        ));
-    }
     Ok((Dahl::new(&point.parameters).map_err(|e| e.to_string())?, study))
 }
 

@@ -27,6 +27,10 @@ impl Measured {
 pub struct Quantity {
     /// Its name in the TOML.
     pub name: &'static str,
+    /// The model it is a quantity of.
+    pub model: &'static str,
+    /// Its unit; `1` for none.
+    pub unit: &'static str,
     /// What it is, in words.
     pub what: &'static str,
     /// How the value is obtained.
@@ -53,3 +57,15 @@ pub const QUANTITIES: &[Quantity] = &[
     dahl::F_MINUS_AT_ZERO_AS_PRINTED,
     dahl::SPEED_AT_ZERO_FORCE,
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::Measured;
+
+    #[test]
+    fn the_error_sees_a_disagreement_and_never_vanishes() {
+        assert!((Measured::of(2.0, 2.5).error - 0.5).abs() < 1e-15);
+        let agreed = Measured::of(2.0, 2.0).error;
+        assert!(agreed > 0.0 && agreed < 1e-14, "{agreed}");
+    }
+}
