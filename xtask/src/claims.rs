@@ -28,7 +28,7 @@ pub(crate) fn table(summaries: &[Summary]) -> String {
     for summary in summaries {
         for row in &summary.claims {
             let says = row.says.replace('|', "\\|");
-            let [printed, ours] = screen::numbers(row);
+            let [printed, ours] = screen::numbers(row).unwrap_or_default();
             let id = format!("[`{}`](reports/{}/README.md)", row.id, summary.name);
             let _ = writeln!(text, "| {id} | {says} | {printed} | {ours} | {} |", row.verdict);
         }
@@ -62,10 +62,12 @@ pub(crate) fn print(summaries: &[Summary], as_json: bool) {
 fn ledger(summaries: &[Summary]) -> Value {
     let claims = summaries.iter().flat_map(|s| &s.claims).map(|c| {
         let printed = c.printed.map(|value| json!({ "value": value, "unit": c.unit }));
-        let ours = c.ours.map(|value| json!({ "value": value, "error": c.error, "unit": c.unit }));
+        // A number that answers no printed one is evidence: the sentence itself has none.
+        let number = c.ours.map(|value| json!({ "value": value, "error": c.error, "unit": c.unit }));
+        let (ours, evidence) = if printed.is_some() { (number, None) } else { (None, number) };
         json!({
             "id": c.id, "place": c.place, "says": c.says, "printed": printed, "ours": ours,
-            "holds": c.holds, "verdict": c.verdict, "why": c.why, "how": c.how,
+            "evidence": evidence, "holds": c.holds, "verdict": c.verdict, "why": c.why, "how": c.how,
         })
     });
     let claims: Vec<Value> = claims.collect();

@@ -33,16 +33,22 @@ fn claim(row: &ClaimRow, width: usize, colours: bool) -> String {
     };
     let verdict = format!("{mark} {:<15}", row.verdict);
     let verdict = if colours { format!("\x1b[{colour}m{verdict}\x1b[0m") } else { verdict };
-    let numbers = numbers(row).map(|text| if text.is_empty() { "-".to_owned() } else { text });
-    format!("{verdict} {:<width$}  printed {}, ours {}", row.id, numbers[0], numbers[1])
+    let told = match numbers(row) {
+        Some([printed, ours]) => format!("printed {printed}, ours {ours}"),
+        None if row.says.chars().count() > SAID => {
+            format!("{}…", row.says.chars().take(SAID).collect::<String>().trim_end())
+        }
+        None => row.says.clone(),
+    };
+    format!("{verdict} {:<width$}  {told}", row.id)
 }
 
-/// The printed number and ours, with the unit; a value lost in its error is 0.
-pub(crate) fn numbers(row: &ClaimRow) -> [String; 2] {
+/// The characters shown of a sentence without a number.
+const SAID: usize = 64;
+
+/// The printed number and ours, with the unit, where the paper prints one.
+pub(crate) fn numbers(row: &ClaimRow) -> Option<[String; 2]> {
     let unit = if row.unit == "1" { "" } else { &row.unit };
-    let ours = row.ours.map(|v| if v.abs() <= row.error.unwrap_or(0.0) { 0.0 } else { v });
-    [row.printed, ours].map(|value| {
-        let text = value.map_or(String::new(), |v| format!("{} {unit}", four_digits(v)));
-        text.trim_end().to_owned()
-    })
+    let text = |value| format!("{} {unit}", four_digits(value)).trim_end().to_owned();
+    Some([text(row.printed?), row.ours.map_or("-".to_owned(), text)])
 }
