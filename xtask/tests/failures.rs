@@ -49,7 +49,7 @@ fn solvers_that_fail_are_rows_and_leave_the_others_alone() {
 fn a_solver_that_never_calls_back_is_given_up_and_never_stored() {
     let toml = small("\"rk4\", \"faulty-never-calls-back\"");
     let project = Project::new(&[("faults.toml", &toml)]);
-    let ran = project.run(&["reproduce", "--watchdog", "0.3"]);
+    let ran = project.run(&["reproduce", "--watchdog", "2"]);
     assert_eq!(ran.code, Some(1), "{ran:?}");
     assert!(ran.err.contains("watchdog"), "{}", ran.err);
     let rows = cases(&project);
