@@ -166,8 +166,8 @@ fn an_interrupted_run_ends_with_5_and_is_simply_started_again() {
     while project.files("target/duhem/records").is_empty() {
         thread::sleep(Duration::from_millis(5));
     }
-    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(sent.expect("kill").success());
+    let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status();
+    assert!(sent.expect("a shell").success());
     let status = child.wait().expect("an end");
     assert_eq!(status.code(), Some(5));
     assert!(!project.files("target/duhem/records").is_empty());
