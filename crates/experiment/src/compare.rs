@@ -58,11 +58,6 @@ pub(crate) fn record(
         Outcome::Failed { at, why } => (why.name().to_owned(), detail(why), *at),
     };
     let row = CaseRow {
-        solver: case.solver.name.to_owned(),
-        library: case.solver.library.to_owned(),
-        control: control_name(case.solver).to_owned(),
-        value: case.value,
-        corners: corners_name(case.corners).to_owned(),
         status,
         detail,
         reached: at / study.span,
@@ -75,9 +70,21 @@ pub(crate) fn record(
         jacobians: run.work.jacobians,
         accepted: run.work.accepted,
         rejected: run.work.rejected,
-        ..CaseRow::default()
+        ..named(case)
     };
     CaseRecord { row, history: case.history.then(|| history(&run.trajectory, &errors)) }
+}
+
+/// A case's row with its names and nothing measured.
+pub(crate) fn named(case: &Case) -> CaseRow {
+    CaseRow {
+        solver: case.solver.name.to_owned(),
+        library: case.solver.library.to_owned(),
+        control: control_name(case.solver).to_owned(),
+        value: case.value,
+        corners: corners_name(case.corners).to_owned(),
+        ..CaseRow::default()
+    }
 }
 
 /// The words of a failure beyond its name.

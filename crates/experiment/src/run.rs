@@ -2,7 +2,7 @@
 
 use crate::{
     ExperimentError, compare,
-    plan::{Case, Plan, control_name, corners_name, fixed_step},
+    plan::{Case, Plan, corners_name, fixed_step},
 };
 use integrate::{Control, Limits};
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
@@ -196,14 +196,9 @@ fn watched(
 
 fn given_up(case: &Case, watchdog: Duration) -> CaseRecord {
     let row = CaseRow {
-        solver: case.solver.name.to_owned(),
-        library: case.solver.library.to_owned(),
-        control: control_name(case.solver).to_owned(),
-        value: case.value,
-        corners: corners_name(case.corners).to_owned(),
         status: WATCHDOG.to_owned(),
         detail: format!("no answer within {} s", watchdog.as_secs_f64()),
-        ..CaseRow::default()
+        ..compare::named(case)
     };
     CaseRecord { row, history: None }
 }
