@@ -40,12 +40,16 @@ pub(crate) fn table(summaries: &[Summary]) -> String {
 pub(crate) fn committed(root: &Path, reports: &Path) -> Result<Vec<Summary>, Failure> {
     let mut summaries = Vec::new();
     for name in root::experiments(root)? {
-        let folder = reports.join(&name);
-        if folder.join(Summary::FILES[0]).is_file() {
-            summaries.push(Summary::read(&folder)?);
-        }
+        summaries.extend(committed_one(reports, &name)?);
     }
     Ok(summaries)
+}
+
+/// The summary of this experiment, if there is one.
+pub(crate) fn committed_one(reports: &Path, name: &str) -> Result<Option<Summary>, Failure> {
+    let folder = reports.join(name);
+    let there = folder.join(Summary::FILES[0]).is_file();
+    Ok(there.then(|| Summary::read(&folder)).transpose()?)
 }
 
 /// Prints claims and measures as JSON, or the claims as one screen.

@@ -172,11 +172,17 @@ fn verdict(moved: &[String], given_up: usize, as_json: bool) -> Exit {
 
 /// Renders everything, then writes what changed; figures of ours that nothing draws any more are removed.
 fn write(root: &Path, reports: &Path, found: &[Summary]) -> Result<(), Failure> {
-    let before = claims::committed(root, reports)?;
-    let kept = before.iter().filter(|old| !found.iter().any(|new| new.name == old.name));
-    let mut all: Vec<Summary> = kept.chain(found).cloned().collect();
+    let mut all = found.to_vec();
+    for name in root::experiments(root)? {
+        if !found.iter().any(|new| new.name == name) {
+            all.extend(claims::committed_one(reports, &name)?);
+        }
+    }
     all.sort_by(|a, b| a.name.cmp(&b.name));
     let outputs = report::render(&all)?;
+    // Old tables that cannot be read any more name no figures, and are about to be replaced.
+    let old: Vec<Summary> =
+        found.iter().filter_map(|new| Summary::read(&reports.join(&new.name)).ok()).collect();
     for tables in found {
         for (file, bytes) in tables.files() {
             write_whole(&reports.join(&tables.name).join(file), &bytes)?;
@@ -185,18 +191,13 @@ fn write(root: &Path, reports: &Path, found: &[Summary]) -> Result<(), Failure> 
     for output in &outputs {
         write_whole(&reports.join(&output.path), &output.bytes)?;
     }
-    for old in &before {
-        for figure in &old.figures {
-            for kind in ["svg", "csv"] {
-                let path = format!("{}/{}.{kind}", old.name, figure.figure);
-                let table = Summary::FILES.iter().any(|file| path.ends_with(&format!("/{file}")));
-                if !table
-                    && !outputs.iter().any(|o| o.path == path)
-                    && reports.join(&path).is_file()
-                {
-                    fs::remove_file(reports.join(&path)).map_err(Failure::environment)?;
-                }
-            }
+    let drawn = old.iter().flat_map(|tables| {
+        let file = |figure: &str, kind| format!("{}/{figure}.{kind}", tables.name);
+        tables.figures.iter().flat_map(move |f| [file(&f.figure, "svg"), file(&f.figure, "csv")])
+    });
+    for path in drawn.filter(|path| !outputs.iter().any(|o| o.path == *path)) {
+        if reports.join(&path).is_file() {
+            fs::remove_file(reports.join(&path)).map_err(Failure::environment)?;
         }
     }
     Ok(())

@@ -175,3 +175,33 @@ fn an_interrupted_run_ends_with_5_and_is_simply_started_again() {
     quick(&project, &[]);
     assert_eq!(difference(&expected, &project.files(QUICK)), None);
 }
+
+#[test]
+fn tables_that_cannot_be_read_any_more_are_written_again() {
+    // As after a change of a table's columns: what is made anew need not be read.
+    let project = Project::new(&[("small.toml", &common::small("\"rk4\""))]);
+    assert_eq!(project.run(&["reproduce"]).code, Some(0));
+    let committed = project.files("reports");
+    for file in ["cases.csv", "figures.csv"] {
+        let path = project.path().join("reports/small").join(file);
+        let text = fs::read_to_string(&path).unwrap().replacen("study", "stud", 1);
+        fs::write(&path, text).unwrap();
+        let ran = project.run(&["reproduce"]);
+        assert_eq!(ran.code, Some(0), "{file}: {ran:?}");
+        assert_eq!(difference(&committed, &project.files("reports")), None, "{file}");
+    }
+}
+
+#[test]
+fn a_figure_that_is_drawn_no_more_is_removed_and_other_files_are_not() {
+    let project = Project::new(&[("small.toml", &common::small("\"rk4\""))]);
+    assert_eq!(project.run(&["reproduce"]).code, Some(0));
+    fs::write(project.path().join("reports/small/notes.md"), "mine").unwrap();
+    let toml = project.path().join("experiments/small.toml");
+    let text = fs::read_to_string(&toml).unwrap().replace("= \"work\"", "= \"effort\"");
+    fs::write(&toml, text).unwrap();
+    assert_eq!(project.run(&["reproduce"]).code, Some(0));
+    let there = |name: &str| project.path().join("reports/small").join(name).is_file();
+    assert!(there("effort.svg") && there("effort.csv") && there("notes.md"));
+    assert!(!there("work.svg") && !there("work.csv"), "the old figure is still there");
+}

@@ -143,9 +143,11 @@ fn steps(
     let (index, study, points) = shown(plan, figure, panel)?;
     let (mut series, solvers) = (Vec::new(), solver_names(&figure.solvers));
     for (case, finished) in plan.cases.iter().zip(finished) {
-        let label = &study.points[case.point.min(study.points.len() - 1)].label;
-        let wanted = case.study == index
-            && points.iter().any(|p| p.label == *label)
+        if case.study != index {
+            continue;
+        }
+        let label = &study.points[case.point].label;
+        let wanted = points.iter().any(|p| p.label == *label)
             && (solvers.is_empty() || solvers.contains(&case.solver.name));
         if let (true, Some(history)) = (wanted, &finished.record.history) {
             let xy = history.t.iter().copied().zip(history.step.iter().copied()).collect();
