@@ -1,5 +1,5 @@
-//! Duhem models of friction: the models of the paper, the inputs that drive them, their closed forms
-//! and the measures of hysteresis.
+//! Duhem models of friction: the models of the paper, the inputs that drive them, the plants they act
+//! on, their closed forms and the measures of hysteresis.
 //!
 //! The paper is Padthe, Drincic, Oh, Rizos, Fassois and Bernstein, "Duhem Modeling of Friction-Induced
 //! Hysteresis", IEEE Control Systems Magazine 28, no. 5, 2008. An equation stands directly above the
@@ -29,11 +29,15 @@ pub mod input;
 pub mod measures;
 pub mod models;
 mod parameters;
+pub mod plant;
+pub mod slopes;
 
 pub use form::{Continuity, DuhemForm, DuhemType};
 pub use input::{Input, InputError};
 pub use models::{Coulomb, Dahl, FrictionModel, LuGre, MODELS, MaxwellSlip, ModelEntry};
 pub use parameters::{Parameter, ParameterError, Parameters};
+pub use plant::{PLANTS, Plant, PlantEntry, Rig};
+pub use slopes::{Differentiable, Slopes};
 
 /// The paper's sign: sgn 0 = 0, where `f64::signum` gives ±1. Not a number stays not a number.
 pub fn sgn(v: f64) -> f64 {

@@ -175,7 +175,10 @@ proptest! {
         let model = ten();
         let settled = Loop::new(&model, (0.0, beta), 0.0, &rest(&model));
         let cycle = work(&model, &settled.z_at_u_min, beta) + work(&model, &settled.z_at_u_max, -beta);
-        prop_assert!((cycle - settled.area()).abs() < 1e-17, "{} J and {} J", cycle, settled.area());
+        // Rounding, relative to the work of all elements slipping all the way.
+        let most: f64 = model.k.iter().zip(&model.delta).map(|(k, delta)| 2.0 * k * delta * beta).sum();
+        let error = (cycle - settled.area()).abs();
+        prop_assert!(error < 8.0 * f64::EPSILON * most, "{} J and {} J", cycle, settled.area());
         prop_assert!(settled.area() >= 0.0);
     }
 }

@@ -7,7 +7,7 @@ use crate::plan::{Case, Plan, control_name, corners_name};
 use duhem::closed_form::Reference;
 use integrate::{Outcome, Run, Trajectory};
 use record::{CaseRecord, CaseRow, History};
-use simulation::PrescribedMotion;
+use simulation::{Motion, PrescribedMotion};
 
 /// How near to a kink counts as near, as a share of the period.
 pub const NEAR_A_KINK: f64 = 1.0 / 20.0;

@@ -7,7 +7,7 @@ use crate::{
 use integrate::{Control, Limits};
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 use record::{CaseRecord, CaseRow, Found, Key, Store};
-use simulation::PrescribedMotion;
+use simulation::{Motion, PrescribedMotion};
 use std::{
     sync::{
         Arc,

@@ -2,7 +2,7 @@
 
 use duhem::{Dahl, FrictionModel, Input};
 use integrate::{Control, Corners, Dynamics, Limits, Outcome, solve, solver};
-use simulation::PrescribedMotion;
+use simulation::{Motion, PrescribedMotion};
 
 fn dahl() -> Dahl {
     Dahl { f_c: 0.75, sigma: 1.5, gamma: 1.0 }

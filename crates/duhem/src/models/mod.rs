@@ -10,13 +10,13 @@ pub use dahl::Dahl;
 pub use lugre::LuGre;
 pub use maxwell_slip::{MaxwellSlip, step};
 
-use crate::{DuhemForm, ParameterError, Parameters};
+use crate::{Differentiable, DuhemForm, ParameterError, Parameters};
 
 /// A model of friction between two surfaces in relative motion u.
 ///
 /// Matrices are slices in row-major order. All functions are defined for every finite argument, also
 /// outside the states the exact solution visits, because solvers go there.
-pub trait FrictionModel: std::fmt::Debug + Send + Sync {
+pub trait FrictionModel: Differentiable + std::fmt::Debug + Send + Sync {
     /// The number n of internal states.
     fn states(&self) -> usize;
 

@@ -1,0 +1,179 @@
+//! A solved plant, between its nodes too.
+
+/// A solved plant: nodes in time with the state q, v, x₁ … x_n and its derivative, Hermite between them.
+/// What it is asked for needs one node at least.
+///
+/// A node may stand twice at one time with another derivative, where the solution has a kink: each side
+/// then uses its own. q is the quintic through q, v and v̇ at both nodes, the other states are cubics.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Path {
+    n: usize,
+    t: Vec<f64>,
+    y: Vec<f64>,
+    y_dot: Vec<f64>,
+}
+
+impl Path {
+    /// A path without nodes, for `n` states, two at least.
+    pub fn new(n: usize) -> Self {
+        Self { n, ..Self::default() }
+    }
+
+    /// Appends a node at the time `t` [s], not before the last one.
+    pub fn push(&mut self, t: f64, y: &[f64], y_dot: &[f64]) {
+        debug_assert!(self.t.last().is_none_or(|last| *last <= t), "{t} s is before the last node");
+        self.t.push(t);
+        self.y.extend_from_slice(y);
+        self.y_dot.extend_from_slice(y_dot);
+    }
+
+    /// The number of states.
+    pub fn states(&self) -> usize {
+        self.n
+    }
+
+    /// The times of the nodes [s].
+    pub fn t(&self) -> &[f64] {
+        &self.t
+    }
+
+    /// The state at node `i`.
+    pub fn node(&self, i: usize) -> &[f64] {
+        &self.y[i * self.n..(i + 1) * self.n]
+    }
+
+    /// The derivative of the state at node `i`.
+    pub fn node_dot(&self, i: usize) -> &[f64] {
+        &self.y_dot[i * self.n..(i + 1) * self.n]
+    }
+
+    /// The last time and the state there; none if there is no node.
+    pub fn end(&self) -> Option<(f64, &[f64])> {
+        self.t.last().map(|t| (*t, self.node(self.t.len() - 1)))
+    }
+
+    /// Writes the state at the time `t` [s]; outside the nodes it is that of the nearest.
+    pub fn state(&self, t: f64, y: &mut [f64]) {
+        let place = self.locate(t);
+        for (j, y) in y.iter_mut().enumerate().skip(1) {
+            *y = self.cubic(place, j);
+        }
+        y[0] = self.quintic(place);
+    }
+
+    /// The displacement q at the time `t` [m].
+    pub fn q(&self, t: f64) -> f64 {
+        self.quintic(self.locate(t))
+    }
+
+    /// The velocity v at the time `t` [m/s].
+    pub fn v(&self, t: f64) -> f64 {
+        self.cubic(self.locate(t), 1)
+    }
+
+    /// The acceleration v̇ at the time `t` [m/s²]; at a kink, just after it.
+    pub fn v_dot(&self, t: f64) -> f64 {
+        let (i, s) = self.locate(t);
+        let (from, to) = self.ends(i, 1);
+        if self.width(i) == 0.0 {
+            return to.1;
+        }
+        let chord = (to.0 - from.0) / self.width(i);
+        let (a, b) = (from.1 - chord, to.1 - chord);
+        chord + a * (1.0 - s) * (1.0 - 3.0 * s) + b * s * (3.0 * s - 2.0)
+    }
+
+    /// The times at which v changes sign [s], in order, each once: a root of the interpolant, or the
+    /// first of the nodes at which v is zero. To start from rest or to end in it is no reversal.
+    pub fn reversals(&self) -> Vec<f64> {
+        let mut times = Vec::new();
+        // The last node with v ≠ 0 and, if nodes with v = 0 followed it, the first of them.
+        let (mut before, mut zero): (Option<usize>, Option<usize>) = (None, None);
+        for i in 0..self.t.len() {
+            let v = self.node(i)[1];
+            if v == 0.0 {
+                zero = zero.or(before.map(|_| i));
+                continue;
+            }
+            if let Some(last) =
+                before.filter(|last| self.node(*last)[1] * v < 0.0 || self.opposite(*last, v))
+            {
+                times.push(zero.map_or_else(|| self.root(last), |zero| self.t[zero]));
+            }
+            (before, zero) = (Some(i), None);
+        }
+        times
+    }
+
+    /// Of opposite sign, also where the product underflows.
+    fn opposite(&self, i: usize, v: f64) -> bool {
+        (self.node(i)[1] > 0.0) != (v > 0.0)
+    }
+
+    /// The time between nodes `i` and `i + 1` at which v is zero [s], by bisection to the last digit.
+    fn root(&self, i: usize) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        let rising = self.node(i)[1] < 0.0;
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                return self.t[i] + middle * self.width(i);
+            }
+            if (self.cubic((i, middle), 1) < 0.0) == rising {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+    }
+
+    /// The interval that holds just after `t` and the part of it before `t`.
+    fn locate(&self, t: f64) -> (usize, f64) {
+        let after = self.t.partition_point(|node| *node <= t);
+        if after == 0 {
+            return (0, 0.0);
+        }
+        if after == self.t.len() {
+            // At the end, the interval that ends there: a doubled last node is its own interval.
+            return (after.saturating_sub(2), 1.0);
+        }
+        let i = after - 1;
+        (i, (t - self.t[i]) / self.width(i))
+    }
+
+    fn width(&self, i: usize) -> f64 {
+        self.t.get(i + 1).map_or(0.0, |next| next - self.t[i])
+    }
+
+    /// State j and its derivative at both ends of interval `i`.
+    fn ends(&self, i: usize, j: usize) -> ((f64, f64), (f64, f64)) {
+        let next = (i + 1).min(self.t.len() - 1);
+        ((self.node(i)[j], self.node_dot(i)[j]), (self.node(next)[j], self.node_dot(next)[j]))
+    }
+
+    fn cubic(&self, (i, s): (usize, f64), j: usize) -> f64 {
+        let (from, to) = self.ends(i, j);
+        let (h, d) = (self.width(i), to.0 - from.0);
+        let (a, b) = (h * from.1 - d, h * to.1 - d);
+        if s == 1.0 {
+            return to.0;
+        }
+        from.0 + d * s + s * (1.0 - s) * (a * (1.0 - s) - b * s)
+    }
+
+    /// The cubic of q plus s²(1 − s)² times the line that also meets v̇ at both ends.
+    fn quintic(&self, (i, s): (usize, f64)) -> f64 {
+        let (from, to) = self.ends(i, 0);
+        let (v_dot, next_v_dot) = {
+            let ends = self.ends(i, 1);
+            (ends.0.1, ends.1.1)
+        };
+        let (h, d) = (self.width(i), to.0 - from.0);
+        let (a, b) = (h * from.1 - d, h * to.1 - d);
+        // The cubic's second derivatives in s at 0 and 1 are −4a − 2b and 2a + 4b.
+        let (left, right) =
+            (h * h * v_dot + 4.0 * a + 2.0 * b, h * h * next_v_dot - 2.0 * a - 4.0 * b);
+        let bump = s * s * (1.0 - s) * (1.0 - s);
+        self.cubic((i, s), 0) + 0.5 * bump * (left * (1.0 - s) + right * s)
+    }
+}
