@@ -45,7 +45,7 @@ pub(crate) fn show(root: &Path, name: &str, as_json: bool) -> Result<Exit, Failu
         json!({
             "name": study.name, "model": study.model_text, "input": study.input_text,
             "points": study.points.iter().map(|p| &p.label).collect::<Vec<_>>(),
-            "span_s": study.span, "budget": study.budget, "reference": study.reference.map(|r| r.name),
+            "span_s": study.span, "budget": study.budget, "reference": study.reference.as_ref().map(|r| r.name),
             "fixed_step": names(fixed), "steps_per_period": study.steps,
             "adaptive": names(adaptive), "rtol": study.rtol,
             "corners": study.corners.iter().map(|c| corners_name(*c)).collect::<Vec<_>>(),

@@ -1,13 +1,14 @@
 //! A run against the exact answer, in several norms.
 //!
 //! Errors are taken at the solver's own accepted steps, with no interpolation of ours in between, and are
-//! relative to the largest force of the exact answer.
+//! relative to the largest response of the exact answer: the force under an imposed motion, the
+//! displacement of a plant.
 
 use crate::plan::{Case, Plan, control_name, corners_name};
 use duhem::closed_form::Reference;
 use integrate::{Outcome, Run, Trajectory};
 use record::{CaseRecord, CaseRow, History};
-use simulation::{Motion, PrescribedMotion};
+use simulation::Motion;
 
 /// How near to a kink counts as near, as a share of the period.
 pub const NEAR_A_KINK: f64 = 1.0 / 20.0;
@@ -15,30 +16,25 @@ pub const NEAR_A_KINK: f64 = 1.0 / 20.0;
 const SMALLEST: f64 = 1e-16;
 /// The stretches of time a history is thinned to; each keeps its smallest and its largest step.
 const HISTORY: f64 = 300.0;
-/// Points at which the exact answer's largest force is looked for, besides its corners.
+/// Points at which the exact answer's largest response is looked for, besides its kinks.
 const PROBES: u32 = 1000;
 
-/// The exact force at `t`.
-pub(crate) fn exact_force(
-    motion: &PrescribedMotion,
-    reference: &dyn Reference,
-    t: f64,
-    x: &mut [f64],
-) -> f64 {
+/// The exact response at `t`.
+fn exact_response(motion: &dyn Motion, reference: &dyn Reference, t: f64, x: &mut [f64]) -> f64 {
     reference.state(t, x);
-    motion.force(t, x)
+    motion.response(t, x)
 }
 
-/// The largest absolute force of the exact answer over the span.
-pub(crate) fn largest_force(
-    motion: &PrescribedMotion,
+/// The largest absolute response of the exact answer over the span.
+pub(crate) fn largest_response(
+    motion: &dyn Motion,
     reference: &dyn Reference,
     (span, n): (f64, usize),
 ) -> f64 {
     let mut x = vec![0.0; n];
     let grid = (0..=PROBES).map(|i| span * f64::from(i) / f64::from(PROBES));
-    grid.chain(motion.corners().iter().copied())
-        .map(|t| exact_force(motion, reference, t, &mut x).abs())
+    grid.chain(kinks(motion, reference))
+        .map(|t| exact_response(motion, reference, t, &mut x).abs())
         .fold(0.0, f64::max)
 }
 
@@ -47,7 +43,7 @@ pub(crate) fn record(
     plan: &Plan,
     case: &Case,
     run: &Run,
-    motion: &PrescribedMotion,
+    motion: &dyn Motion,
     reference: &dyn Reference,
 ) -> CaseRecord {
     let study = &plan.studies[case.study];
@@ -98,22 +94,22 @@ fn detail(why: &integrate::Failure) -> String {
 /// The relative error at every accepted step.
 fn errors(
     trajectory: &Trajectory,
-    motion: &PrescribedMotion,
+    motion: &dyn Motion,
     reference: &dyn Reference,
     span: f64,
 ) -> Vec<f64> {
     let n = trajectory.n;
-    let scale = largest_force(motion, reference, (span, n));
+    let scale = largest_response(motion, reference, (span, n));
     let mut x = vec![0.0; n];
     let mut error = |(i, t): (usize, &f64)| {
-        let ours = motion.force(*t, &trajectory.y[i * n..(i + 1) * n]);
-        (ours - exact_force(motion, reference, *t, &mut x)).abs() / scale
+        let ours = motion.response(*t, &trajectory.y[i * n..(i + 1) * n]);
+        (ours - exact_response(motion, reference, *t, &mut x)).abs() / scale
     };
     trajectory.t.iter().enumerate().map(&mut error).collect()
 }
 
 /// The kinks of the exact solution: corners of the input, and where a force arrives at its limit.
-fn kinks(motion: &PrescribedMotion, reference: &dyn Reference) -> Vec<f64> {
+fn kinks(motion: &dyn Motion, reference: &dyn Reference) -> Vec<f64> {
     let mut kinks = [motion.corners().to_vec(), reference.kinks()].concat();
     kinks.sort_by(f64::total_cmp);
     kinks

@@ -2,6 +2,7 @@
 
 use crate::{
     plan::{Plan, Point, Study, solver_names},
+    quantities::View,
     run::Finished,
     spec::{FigureSpec, PanelSpec},
 };
@@ -10,6 +11,8 @@ use record::{CurveRow, PanelRow};
 
 /// Points drawn on each arc between two corners.
 const PER_ARC: u32 = 100;
+/// Stretches of time that a plant's curve is cut into.
+const STRETCHES: u32 = 600;
 /// Periods after which a loop is the limit cycle to more digits than a figure shows.
 const SETTLED: f64 = 40.0;
 
@@ -24,6 +27,7 @@ pub(crate) fn curves(
             panels.push(axes(figure, panel));
             let drawn = match panel.show.as_str() {
                 "step-time" => steps(plan, figure, panel, finished)?,
+                _ if of_plant(plan, figure, panel)? => plants(plan, figure, panel)?,
                 _ => forces(plan, figure, panel)?,
             };
             for (series, points) in drawn {
@@ -72,6 +76,48 @@ fn shown<'a>(
     Ok((index, study, points))
 }
 
+fn of_plant(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<bool, String> {
+    Ok(shown(plan, figure, panel)?.1.plant.is_some())
+}
+
+/// What a plant does, at times that do not depend on the steps of the answer: of each stretch of time its
+/// start, and for a history the smallest and the largest value, so that no slip is left out.
+fn plants(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series, String> {
+    let (_, study, points) = shown(plan, figure, panel)?;
+    let mut series = Series::new();
+    for point in points {
+        let index = study.points.iter().position(|p| p.label == point.label).ok_or("no point")?;
+        let (solved, motion) = (study.exact(index)?.solved()?, study.driven(index)?);
+        let view = View::new(&solved.first, &motion, None);
+        let [from, to] = panel.between.unwrap_or([0.0, study.span]);
+        let at = |i: u32| from + (to - from) * f64::from(i) / f64::from(STRETCHES);
+        let y = |t: f64| match panel.show.split_once('-').map(|(y, _)| y) {
+            Some("force") => view.force(t),
+            Some("velocity") => view.v(t),
+            Some("drive") => view.drive(t),
+            _ => view.q(t),
+        };
+        let x = |t: f64| match panel.show.split_once('-').map(|(_, x)| x) {
+            Some("displacement") => view.q(t),
+            Some("velocity") => view.v(t),
+            Some("drive") => view.drive(t),
+            _ => t,
+        };
+        let mut drawn = Vec::new();
+        for i in 0..STRETCHES {
+            drawn.push((x(at(i)), y(at(i))));
+            if panel.show.ends_with("-time") {
+                drawn.extend(
+                    view.ends((at(i), at(i + 1)), &y).map(|y| (0.5 * (at(i) + at(i + 1)), y)),
+                );
+            }
+        }
+        drawn.push((x(to), y(to)));
+        series.push((pretty(&point.label, study), drawn));
+    }
+    Ok(series)
+}
+
 fn forces(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series, String> {
     let (_, study, points) = shown(plan, figure, panel)?;
     points
@@ -93,11 +139,8 @@ fn forces(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series,
 /// The exact answer's u, u̇ and F over a span, both sides of each corner.
 fn path(study: &Study, point: &Point, span: (f64, f64)) -> Result<Vec<(f64, f64, f64)>, String> {
     let model = study.model_at(point)?;
-    let reference = match study.reference {
-        Some(r) => Some(
-            (r.build)(&point.parameters, &study.input, &study.initial, (0.0, span.1))
-                .map_err(|e| e.to_string())?,
-        ),
+    let reference = match &study.reference {
+        Some(answers) => Some(answers.closed(study, point, (0.0, span.1))?),
         None if model.states() == 0 => None,
         None => return Err(format!("study `{}` has no exact answer to draw", study.name)),
     };

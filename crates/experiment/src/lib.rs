@@ -24,8 +24,8 @@ pub use drift::{Drift, drift};
 pub use error::ExperimentError;
 pub use judge::four_digits;
 pub use plan::{
-    Case, Claim, Decision, Irreproducible, Measure, Plan, Point, Study, Subject, corners_name,
-    fixed_step,
+    Answers, Case, Claim, Decision, Exact, Irreproducible, Measure, Plan, Point, Study, Subject,
+    corners_name, fixed_step,
 };
 pub use run::{Finished, Options, Progress, WATCHDOG, Why, run};
 pub use summary::summary;

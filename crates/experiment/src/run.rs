@@ -7,7 +7,6 @@ use crate::{
 use integrate::{Control, Limits};
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 use record::{CaseRecord, CaseRow, Found, Key, Store};
-use simulation::{Motion, PrescribedMotion};
 use std::{
     sync::{
         Arc,
@@ -131,12 +130,14 @@ fn key(plan: &Plan, case: &Case) -> Key {
     let study = &plan.studies[case.study];
     let point = &study.points[case.point];
     let versions = format!("{:?}", integrate::versions());
-    let reference = study.reference.map_or("", |r| r.name);
+    let reference = study.reference.as_ref().map_or("", |r| r.name);
+    let plant = study.plant.map_or("", |p| p.name);
     Key::of(&[
         env!("DUHEM_SOURCES"),
         &versions,
         study.model.name,
         &format!("{:?}", point.parameters),
+        &format!("{plant} {:?}", point.plant_parameters),
         &format!("{:?}", study.input),
         &format!("{:?} {:?} {:?}", study.initial, study.span, study.period),
         reference,
@@ -205,13 +206,8 @@ fn given_up(case: &Case, watchdog: Duration) -> CaseRecord {
 
 fn compute(plan: &Plan, case: &Case) -> Result<CaseRecord, String> {
     let study = &plan.studies[case.study];
-    let point = &study.points[case.point];
-    let reference = study.reference.ok_or("a case without a reference")?;
-    let reference =
-        (reference.build)(&point.parameters, &study.input, &study.initial, (0.0, study.span))
-            .map_err(|e| e.to_string())?;
-    let model = study.model_at(point)?;
-    let motion = PrescribedMotion::new(model, study.input.clone(), (0.0, study.span));
+    let exact = study.exact(case.point)?;
+    let motion = study.motion(case.point)?;
     let problem = motion.problem(study.initial.clone());
     let control = if fixed_step(case.solver) {
         Control::Step(study.period / case.value)
@@ -220,7 +216,7 @@ fn compute(plan: &Plan, case: &Case) -> Result<CaseRecord, String> {
     };
     let limits = Limits { evaluations: study.budget };
     let run = integrate::solve(case.solver, &problem, &control, case.corners, &limits);
-    Ok(compare::record(plan, case, &run, &motion, reference.as_ref()))
+    Ok(compare::record(plan, case, &run, motion.as_ref(), exact.reference()))
 }
 
 #[cfg(test)]

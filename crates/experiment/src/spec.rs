@@ -53,19 +53,25 @@ pub struct StudySpec {
     pub text: String,
     /// The model's name and parameters.
     pub model: toml::Table,
+    /// The plant's kind and parameters, if the input is a force (or a current) on one; without it the
+    /// input is the displacement itself.
+    pub plant: Option<toml::Table>,
     /// The input's shape and parameters.
     pub input: toml::Table,
-    /// Parameters that take several values.
+    /// Parameters of the model or the plant that take several values.
     #[serde(default)]
     pub sweep: BTreeMap<String, Vec<f64>>,
     /// The time span, in periods of the input.
-    pub periods: f64,
-    /// The internal state at t = 0; zero if not given.
+    pub periods: Option<f64>,
+    /// The time span [s], where it is no matter of periods.
+    pub span: Option<f64>,
+    /// The state at t = 0: the model's, after displacement and velocity if there is a plant; zero if
+    /// not given.
     pub initial: Option<Vec<f64>>,
     /// Solvers and named sets of them.
     #[serde(default)]
     pub solvers: Vec<String>,
-    /// Steps per period, for the methods of fixed step.
+    /// Steps per period (over the span if that is given), for the methods of fixed step.
     #[serde(default)]
     pub steps: Vec<f64>,
     /// Relative tolerances, for the adaptive methods.
@@ -130,11 +136,13 @@ pub struct PanelSpec {
     pub title: String,
     /// The study whose curves it shows; the figure's if not given.
     pub study: Option<String>,
-    /// What is drawn: `force-displacement`, `force-velocity` or `step-time`.
+    /// What is drawn, as listed in `plan`: `force-displacement`, `displacement-time`, `step-time`, ….
     pub show: String,
-    /// `settled` (the limit cycle) or `from-start`; only for forces.
+    /// `settled` (the limit cycle) or `from-start`; only for the exact answer under an imposed motion.
     #[serde(default)]
     pub from: String,
+    /// The stretch of time to show [s]; the whole span if not given. Only for plants.
+    pub between: Option<[f64; 2]>,
     /// Label of the horizontal axis.
     pub x: String,
     /// Label of the vertical axis.
@@ -158,7 +166,7 @@ pub struct MeasureSpec {
     pub unit: String,
     /// The study it is taken in.
     pub study: String,
-    /// `quantity`, and values for swept parameters.
+    /// `quantity`, what the quantity takes, and values for swept parameters.
     pub what: toml::Table,
 }
 

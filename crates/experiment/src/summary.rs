@@ -2,13 +2,12 @@
 
 use crate::{
     ExperimentError, Finished, Plan,
-    compare::largest_force,
+    compare::largest_response,
     curves, judge, orders,
-    plan::{Point, Study, solver_names},
+    plan::{Answers, Study, solver_names},
     spec::FigureSpec,
 };
 use record::{AboutRow, CaseRow, FigureRow, MeasureRow, StudyRow, Summary};
-use simulation::PrescribedMotion;
 
 /// All tables of the experiment.
 pub fn summary(plan: &Plan, finished: &[Finished]) -> Result<Summary, ExperimentError> {
@@ -59,7 +58,7 @@ fn folded(text: &str) -> String {
 
 fn study_row(study: &Study) -> Result<StudyRow, String> {
     let mut worst: Option<f64> = None;
-    for point in &study.points {
+    for point in 0..study.points.len() {
         if let Some(error) = reference_error(study, point)? {
             worst = Some(worst.unwrap_or(0.0).max(error));
         }
@@ -70,7 +69,7 @@ fn study_row(study: &Study) -> Result<StudyRow, String> {
         model: study.model_text.clone(),
         input: study.input_text.clone(),
         text: folded(&study.text),
-        reference: study.reference.map_or("", |r| r.name).to_owned(),
+        reference: study.reference.as_ref().map_or_else(String::new, Answers::words),
         period: study.period,
         span: study.span,
         budget: study.budget,
@@ -78,14 +77,14 @@ fn study_row(study: &Study) -> Result<StudyRow, String> {
     })
 }
 
-/// The reference's own bound, relative to its largest force.
-fn reference_error(study: &Study, point: &Point) -> Result<Option<f64>, String> {
-    let Some(entry) = study.reference else { return Ok(None) };
-    let span = (0.0, study.span);
-    let reference = (entry.build)(&point.parameters, &study.input, &study.initial, span)
-        .map_err(|e| e.to_string())?;
-    let motion = PrescribedMotion::new(study.model_at(point)?, study.input.clone(), span);
-    let scale = largest_force(&motion, reference.as_ref(), (study.span, study.initial.len()));
+/// The reference's own bound, relative to its largest response.
+fn reference_error(study: &Study, point: usize) -> Result<Option<f64>, String> {
+    if study.reference.is_none() {
+        return Ok(None);
+    }
+    let reference = study.exact(point)?.reference();
+    let motion = study.motion(point)?;
+    let scale = largest_response(motion.as_ref(), reference, (study.span, study.initial.len()));
     Ok(Some(reference.error_bound() / scale))
 }
 

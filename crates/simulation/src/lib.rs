@@ -11,8 +11,10 @@ mod driven;
 mod motion;
 mod path;
 mod prescribed;
+mod reference;
 
 pub use driven::DrivenPlant;
 pub use motion::Motion;
 pub use path::Path;
 pub use prescribed::PrescribedMotion;
+pub use reference::{PLANT_REFERENCES, PlantReference, PlantReferenceEntry};

@@ -20,6 +20,7 @@ macro_rules! check {
             name: $name,
             model: "dahl",
             expects: &[],
+            takes: &[],
             many: $many,
             code: concat!("crates/experiment/src/checks/dahl.rs, ", stringify!($run)),
             run: $run,

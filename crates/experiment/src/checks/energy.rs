@@ -16,6 +16,7 @@ pub(super) const ORIENTATION: Check = Check {
     name: "orientation",
     model: "dahl",
     expects: &["clockwise", "counterclockwise"],
+    takes: &[],
     many: false,
     code: "crates/experiment/src/checks/energy.rs, turning",
     run: turning,

@@ -32,6 +32,8 @@ pub struct Check {
     pub model: &'static str,
     /// What it can be told to expect; empty if it needs no telling.
     pub expects: &'static [&'static str],
+    /// The numbers it takes from the TOML, besides values of the sweep.
+    pub takes: &'static [&'static str],
     /// Whether it looks at several points of a sweep, or at one.
     pub many: bool,
     /// Looks whether it holds.

@@ -1,7 +1,7 @@
 //! The input's table, checked.
 
 use crate::error::{Complaint, one_of};
-use duhem::Input;
+use duhem::{Input, PlantEntry};
 
 /// The shapes an input may have, each with its keys besides `shape`.
 const SHAPES: [(&str, &[&str]); 6] = [
@@ -13,8 +13,16 @@ const SHAPES: [(&str, &[&str]); 6] = [
     ("sampled", &["t", "u"]),
 ];
 
-/// The input and how a reader would write it.
-pub(super) fn check(table: &toml::Table) -> Result<(Input, String), Complaint> {
+/// The input and how a reader would write it: the displacement u, or what drives a plant.
+pub(super) fn check(
+    table: &toml::Table,
+    plant: Option<&PlantEntry>,
+) -> Result<(Input, String), Complaint> {
+    let (symbol, unit) = match plant.map(|p| p.input_unit) {
+        None => ("u", "m"),
+        Some("A") => ("i_m", "A"),
+        Some(unit) => ("F_e", unit),
+    };
     let shape = text(table, "shape")?;
     let Some((_, keys)) = SHAPES.iter().find(|(name, _)| *name == shape) else {
         let known = SHAPES.iter().map(|(name, _)| *name);
@@ -33,28 +41,28 @@ pub(super) fn check(table: &toml::Table) -> Result<(Input, String), Complaint> {
         "sine" => {
             let (a, omega) = wave()?;
             let input = Input::sine(a, omega).map_err(refused)?;
-            (input, format!("u = {}sin({omega} t) m", times(a)))
+            (input, format!("{symbol} = {}sin({omega} t) {unit}", times(a)))
         }
         "cosine-offset" => {
             let (a, omega) = wave()?;
             let input = Input::cosine_offset(a, omega).map_err(refused)?;
-            (input, format!("u = {}(cos({omega} t) − 1) m", times(a)))
+            (input, format!("{symbol} = {}(cos({omega} t) − 1) {unit}", times(a)))
         }
         "triangle" => {
             let (a, omega) = wave()?;
             let input = Input::triangle(a, omega).map_err(refused)?;
-            (input, format!("u = triangle wave, {a} m, {omega} rad/s"))
+            (input, format!("{symbol} = triangle wave, {a} {unit}, {omega} rad/s"))
         }
         "staircase" => {
             let (rise, hold) = (number(table, "rise_time")?, number(table, "hold_time")?);
             let levels = numbers(table, "levels")?;
-            let words = format!("u = staircase of {} levels", levels.len());
+            let words = format!("{symbol} = staircase of {} levels", levels.len());
             (Input::staircase(levels, rise, hold).map_err(refused)?, words)
         }
-        "sequence" => sequence(table)?,
+        "sequence" => sequence(table, plant)?,
         _ => {
             let (t, u) = (numbers(table, "t")?, numbers(table, "u")?);
-            let words = format!("u = {} samples", t.len());
+            let words = format!("{symbol} = {} samples", t.len());
             (Input::sampled(t, u).map_err(refused)?, words)
         }
     })
@@ -65,7 +73,7 @@ fn times(amplitude: f64) -> String {
     if amplitude == 1.0 { String::new() } else { format!("{amplitude} ") }
 }
 
-fn sequence(table: &toml::Table) -> Result<(Input, String), Complaint> {
+fn sequence(table: &toml::Table, plant: Option<&PlantEntry>) -> Result<(Input, String), Complaint> {
     let list = table.get("parts").and_then(toml::Value::as_array);
     let list = list.ok_or_else(|| Complaint::new("parts", "none", "a list of inputs"))?;
     let (mut parts, mut words) = (Vec::new(), Vec::new());
@@ -77,7 +85,7 @@ fn sequence(table: &toml::Table) -> Result<(Input, String), Complaint> {
             .ok_or_else(|| under(Complaint::new("", part.to_string(), "a table")))?;
         let duration = number(&part, "duration").map_err(under)?;
         part.remove("duration");
-        let (input, text) = check(&part).map_err(under)?;
+        let (input, text) = check(&part, plant).map_err(under)?;
         words.push(format!("{text} for {duration} s"));
         parts.push((input, duration));
     }

@@ -19,6 +19,16 @@ pub struct Subject {
     pub points: Vec<usize>,
     /// What a check is told to expect; empty if it needs no telling.
     pub expect: String,
+    /// The numbers that a quantity or a check takes besides, by their keys.
+    pub arguments: BTreeMap<String, Vec<f64>>,
+}
+
+impl Subject {
+    /// So many numbers under a key that the quantity or check takes.
+    pub fn argument<const N: usize>(&self, key: &str) -> Result<[f64; N], String> {
+        let given = self.arguments.get(key).map_or(&[][..], Vec::as_slice);
+        given.try_into().map_err(|_| format!("{key} = {given:?}: expected {N} numbers"))
+    }
 }
 
 /// One quantity to measure.
@@ -107,7 +117,8 @@ pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint>
             let known = QUANTITIES.iter().map(|q| q.name);
             under(Complaint::new("what.quantity", format!("`{name}`"), one_of(name, known)))
         })?;
-        let subject = subject(&what, "quantity", studies).map_err(|c| under(c.under("what")))?;
+        let subject = subject(&what, ("quantity", quantity.takes), studies)
+            .map_err(|c| under(c.under("what")))?;
         if subject.points.len() != 1 {
             let found = format!("{} points of the sweep", subject.points.len());
             return Err(under(Complaint::new(
@@ -117,8 +128,9 @@ pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint>
             )));
         }
         fits(quantity.model, &studies[subject.study]).map_err(|c| under(c.under("what")))?;
-        if written.unit != quantity.unit {
-            let expected = format!("`{}`, the unit of {}", quantity.unit, quantity.name);
+        let unit = quantity.unit_in(&studies[subject.study]);
+        if written.unit != unit {
+            let expected = format!("`{unit}`, the unit of {}", quantity.name);
             return Err(under(Complaint::new("unit", format!("`{}`", written.unit), expected)));
         }
         let (id, unit) = (written.id.clone(), written.unit.clone());
@@ -165,11 +177,16 @@ fn find_study(name: &str, studies: &[Study]) -> Result<usize, Complaint> {
     })
 }
 
-/// The study and the points that a table names: every other key is a swept parameter, with one value or a list.
-fn subject(table: &toml::Table, other: &str, studies: &[Study]) -> Result<Subject, Complaint> {
+/// The study and the points that a table names: but for what the quantity or check takes, every other key is a
+/// swept parameter, with one value or a list.
+fn subject(
+    table: &toml::Table,
+    (other, takes): (&str, &[&str]),
+    studies: &[Study],
+) -> Result<Subject, Complaint> {
     let index = find_study(input::text(table, "study")?, studies)?;
     let expect = if table.contains_key("expect") { input::text(table, "expect")? } else { "" };
-    let mut select = BTreeMap::new();
+    let (mut select, mut arguments) = (BTreeMap::new(), BTreeMap::new());
     for (key, value) in
         table.iter().filter(|(key, _)| !["study", "expect", other].contains(&key.as_str()))
     {
@@ -179,13 +196,18 @@ fn subject(table: &toml::Table, other: &str, studies: &[Study]) -> Result<Subjec
         let numbers = numbers.ok_or_else(|| {
             Complaint::new(key, value.to_string(), "a number of the sweep, or a list")
         })?;
-        select.insert(key.clone(), numbers);
+        let taken = takes.contains(&key.as_str());
+        let place = if taken { &mut arguments } else { &mut select };
+        place.insert(key.clone(), numbers);
+    }
+    if let Some(key) = takes.iter().find(|key| !arguments.contains_key(**key)) {
+        return Err(Complaint::new(*key, "nothing", "a number, or a list"));
     }
     let study = &studies[index];
     let chosen = study.selected(&select)?;
     let place = |label: &str| study.points.iter().position(|p| p.label == label);
     let points = chosen.iter().filter_map(|point| place(&point.label)).collect();
-    Ok(Subject { study: index, points, expect: expect.to_owned() })
+    Ok(Subject { study: index, points, expect: expect.to_owned(), arguments })
 }
 
 fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result<Claim, Complaint> {
@@ -204,7 +226,8 @@ fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result
             let check = CHECKS.iter().find(|c| c.name == name).ok_or_else(|| {
                 Complaint::new("check.name", format!("`{name}`"), one_of(name, known))
             })?;
-            let subject = subject(table, "name", studies).map_err(|c| c.under("check"))?;
+            let subject =
+                subject(table, ("name", check.takes), studies).map_err(|c| c.under("check"))?;
             told(check, &subject, &studies[subject.study]).map_err(|c| c.under("check"))?;
             Decision::Check(check, subject)
         }

@@ -1,15 +1,21 @@
 //! An experiment as checked: every name resolved, every number in its range, every case listed.
 
+mod answer;
+mod figures;
 mod input;
 mod judged;
 mod study;
+mod sweep;
 
+pub use answer::{Answers, Exact};
 pub use judged::{Claim, Decision, Irreproducible, Measure, Subject};
-pub use study::{Point, Study};
+pub use study::Study;
+pub use sweep::Point;
+pub(crate) use sweep::angular;
 
 use crate::{
     ExperimentError,
-    error::{Complaint, one_of},
+    error::Complaint,
     spec::{FigureSpec, Spec, Written},
 };
 use integrate::{Corners, Solver};
@@ -157,7 +163,7 @@ fn check(name: &str, text: &str, spec: &Spec, kinds: &[&str]) -> Result<Plan, Co
         title: spec.title.clone(),
         paper: spec.paper.clone(),
         text: spec.text.clone(),
-        figures: figures(spec, &studies, kinds)?,
+        figures: figures::check(spec, &studies, kinds)?,
         studies,
         cases,
         measures: judged.measures,
@@ -170,13 +176,17 @@ fn check(name: &str, text: &str, spec: &Spec, kinds: &[&str]) -> Result<Plan, Co
 
 /// What has no answer, as the travel to a force that is never reached, is found before anything runs.
 fn answerable(plan: &Plan) -> Result<(), Complaint> {
-    for (i, measure) in plan.measures.iter().enumerate() {
+    // What has to be solved for is not: that takes its time, and a run tells.
+    let quick = |subject: &Subject| plan.studies[subject.study].plant.is_none();
+    for (i, measure) in plan.measures.iter().enumerate().filter(|(_, m)| quick(&m.subject)) {
         (measure.quantity.measure)(plan, &measure.subject).map_err(|e| {
             Complaint::new(format!("measure[{i}].what"), e, "a quantity this model has")
         })?;
     }
     for (i, claim) in plan.claims.iter().enumerate() {
-        if let Decision::Check(check, subject) = &claim.decision {
+        if let Decision::Check(check, subject) = &claim.decision
+            && quick(subject)
+        {
             (check.run)(plan, subject).map_err(|e| {
                 Complaint::new(format!("claim[{i}].check"), e, "what can be checked")
             })?;
@@ -238,59 +248,4 @@ fn cases(studies: &[Study]) -> Vec<Case> {
 /// The names that these names and sets mean; none for those that a plan has already refused.
 pub(crate) fn solver_names(names: &[String]) -> Vec<&'static str> {
     study::solvers(names).unwrap_or_default().iter().map(|s| s.name).collect()
-}
-
-/// What a panel may show.
-pub(crate) const SHOWS: [&str; 3] = ["force-displacement", "force-velocity", "step-time"];
-
-fn figures(spec: &Spec, studies: &[Study], kinds: &[&str]) -> Result<Vec<FigureSpec>, Complaint> {
-    let study = |name: &String, key: String| {
-        let known = studies.iter().map(|s| s.name.as_str());
-        studies
-            .iter()
-            .find(|s| s.name == *name)
-            .ok_or_else(|| Complaint::new(key, format!("`{name}`"), one_of(name, known)))
-    };
-    for (i, figure) in spec.figure.iter().enumerate() {
-        let key = |k: &str| format!("figure[{i}].{k}");
-        for id in crate::judge::placeholders(&figure.caption) {
-            judged::known(spec, id).map_err(|c| c.under(&key("caption")))?;
-        }
-        if !kinds.contains(&figure.kind.as_str()) {
-            let expected = one_of(&figure.kind, kinds.iter().copied());
-            return Err(Complaint::new(key("kind"), format!("`{}`", figure.kind), expected));
-        }
-        if let Some(name) = &figure.study {
-            study(name, key("study"))?
-                .selected(&figure.select)
-                .map_err(|c| c.under(&key("select")))?;
-        }
-        if let (Some(value), Some(name)) = (figure.value, &figure.study) {
-            let study = study(name, key("study"))?;
-            if !study.steps.iter().chain(&study.rtol).any(|v| *v == value) {
-                let expected = format!("a step or a tolerance of study `{name}`");
-                return Err(Complaint::new(key("value"), format!("{value:e}"), expected));
-            }
-        }
-        study::solvers(&figure.solvers).map_err(|c| c.under(&format!("figure[{i}]")))?;
-        for (p, panel) in figure.panel.iter().enumerate() {
-            let key = |k: &str| format!("figure[{i}].panel[{p}].{k}");
-            if let Some(name) = &panel.study {
-                study(name, key("study"))?;
-            } else if figure.study.is_none() {
-                return Err(Complaint::new(key("study"), "none", "a study, here or in the figure"));
-            }
-            if !SHOWS.contains(&panel.show.as_str()) {
-                let expected = one_of(&panel.show, SHOWS);
-                return Err(Complaint::new(key("show"), format!("`{}`", panel.show), expected));
-            }
-            if panel.show != "step-time"
-                && !["settled", "from-start"].contains(&panel.from.as_str())
-            {
-                let expected = one_of(&panel.from, ["settled", "from-start"]);
-                return Err(Complaint::new(key("from"), format!("`{}`", panel.from), expected));
-            }
-        }
-    }
-    Ok(spec.figure.clone())
 }

@@ -1,19 +1,18 @@
 //! One study as checked.
 
-use super::{corners_name, fixed_step, input};
+use super::{
+    answer::{Answers, Exact},
+    corners_name, fixed_step, input,
+    sweep::{self, Point},
+};
 use crate::{
     error::{Complaint, one_of},
     spec::{HistorySpec, StudySpec},
 };
-use duhem::{
-    FrictionModel, Input, MODELS, ModelEntry, Parameter, ParameterError, Parameters,
-    closed_form::{REFERENCES, ReferenceEntry},
-};
+use duhem::{FrictionModel, Input, ModelEntry, PlantEntry};
 use integrate::{Corners, SOLVERS, Solver};
+use simulation::{DrivenPlant, Motion, PrescribedMotion};
 use std::collections::BTreeMap;
-
-/// The most points a sweep may have: more is a slip of the pen.
-const MOST_POINTS: usize = 10_000;
 
 /// One study as checked: model × input × solvers × controls.
 #[derive(Debug)]
@@ -26,19 +25,21 @@ pub struct Study {
     pub text: String,
     /// The model.
     pub model: &'static ModelEntry,
-    /// The model's parameters outside the sweep, as a reader would write them.
+    /// The model with its parameters, and the plant with its own, as a reader would write them.
     pub model_text: String,
-    /// The input.
+    /// The plant that the input drives; none if the motion is imposed.
+    pub plant: Option<&'static PlantEntry>,
+    /// The input: a displacement, or what drives the plant.
     pub input: Input,
     /// The input, as a reader would write it.
     pub input_text: String,
     /// The points of the sweep; one without a label if there is no sweep.
     pub points: Vec<Point>,
-    /// The input's period, or the span if it has none [s].
+    /// What steps are counted over [s]: the input's period, or the span where that is given.
     pub period: f64,
     /// The end of the time span; it starts at 0 [s].
     pub span: f64,
-    /// The internal state at t = 0.
+    /// The state at t = 0: the model's, after displacement and velocity if there is a plant.
     pub initial: Vec<f64>,
     /// The solvers.
     pub solvers: Vec<&'static Solver>,
@@ -48,62 +49,51 @@ pub struct Study {
     pub rtol: Vec<f64>,
     /// Whether solvers restart at corners, or both.
     pub corners: Vec<Corners>,
-    /// The exact answer errors are judged by.
-    pub reference: Option<&'static ReferenceEntry>,
+    /// The exact answers errors are judged by, one for each point.
+    pub reference: Option<Answers>,
     /// The most evaluations a case may use.
     pub budget: u64,
     history: Vec<HistorySpec>,
 }
 
-/// One point of a sweep.
-#[derive(Debug, Clone)]
-pub struct Point {
-    /// As `gamma=0.25`.
-    pub label: String,
-    /// The swept parameters.
-    pub values: BTreeMap<String, f64>,
-    /// All parameters of the model.
-    pub parameters: Parameters,
-}
-
 impl Study {
     pub(super) fn check(spec: &StudySpec, budget: u64) -> Result<Self, Complaint> {
-        let (model, base) = model(&spec.model)?;
-        let points = points(spec, model, &base)?;
-        let (input, input_text) = input::check(&spec.input).map_err(|c| c.under("input"))?;
-        if !(spec.periods > 0.0 && spec.periods <= 1e4) {
-            return Err(Complaint::new(
-                "periods",
-                spec.periods.to_string(),
-                "above 0, at most 1e4",
-            ));
-        }
-        let period = input.period().ok_or_else(|| {
-            Complaint::new("input.shape", "an input without a period", "a periodic one")
-        })?;
-        let states = build(model, &points[0].parameters)?.states();
+        let (model, base) = sweep::model(&spec.model)?;
+        let plant = spec.plant.as_ref().map(sweep::plant).transpose()?;
+        let points = sweep::points(spec, (model, &base), plant.as_ref())?;
+        let (input, input_text) = input::check(&spec.input, plant.as_ref().map(|p| p.entry))
+            .map_err(|c| c.under("input"))?;
+        let (period, span) = span(spec, &input)?;
+        let bristles = sweep::build(model, &points[0].parameters)?.states();
+        let states = bristles + if plant.is_some() { 2 } else { 0 };
         let initial = spec.initial.clone().unwrap_or_else(|| vec![0.0; states]);
         if initial.len() != states || initial.iter().any(|x| !x.is_finite()) {
-            let expected = format!("{states} finite numbers, one for each state of the model");
+            let of = if plant.is_some() { "the plant and the model" } else { "the model" };
+            let expected = format!("{states} finite numbers, one for each state of {of}");
             return Err(Complaint::new("initial", format!("{initial:?}"), expected));
         }
+        let reference = match &spec.reference {
+            Some(name) => Some(Answers::find(name, plant.is_some(), points.len())?),
+            None => None,
+        };
         let study = Self {
             name: spec.name.clone(),
             title: spec.title.clone(),
             text: spec.text.trim().to_owned(),
             model,
-            model_text: model_text(model, &base, &spec.sweep),
+            model_text: sweep::text((model, &base), plant.as_ref(), &spec.sweep),
+            plant: plant.map(|p| p.entry),
             input,
             input_text,
             points,
             period,
-            span: spec.periods * period,
+            span,
             initial,
             solvers: solvers(&spec.solvers)?,
-            steps: steps(&spec.steps, spec.periods)?,
+            steps: steps(&spec.steps, span / period)?,
             rtol: tolerances(&spec.rtol)?,
             corners: corners(&spec.corners)?,
-            reference: reference(spec.reference.as_deref())?,
+            reference,
             budget,
             history: spec.history.clone(),
         };
@@ -148,14 +138,47 @@ impl Study {
         Ok(())
     }
 
-    /// A model's reference that refuses these parameters is the experiment's mistake, not a case's.
+    /// A reference that refuses these parameters is the experiment's mistake, not a case's. A plant's is
+    /// solved when it is first asked for: that takes its time.
     fn references_exist(&self) -> Result<(), Complaint> {
-        let Some(reference) = self.reference else { return Ok(()) };
-        for point in &self.points {
-            (reference.build)(&point.parameters, &self.input, &self.initial, (0.0, self.span))
-                .map_err(|e| Complaint::new("reference", e.to_string(), "an exact answer"))?;
+        if self.reference.is_none() || self.plant.is_some() {
+            return Ok(());
+        }
+        for point in 0..self.points.len() {
+            self.exact(point).map_err(|e| Complaint::new("reference", e, "an exact answer"))?;
         }
         Ok(())
+    }
+
+    /// The exact answer at a point of the sweep.
+    pub fn exact(&self, point: usize) -> Result<&Exact, String> {
+        let answers = self.reference.as_ref().ok_or("a study without a reference")?;
+        answers.at(self, point)
+    }
+
+    /// The study at a point of its sweep, as what a solver is run on.
+    pub fn motion(&self, point: usize) -> Result<Box<dyn Motion>, String> {
+        if self.plant.is_some() {
+            return Ok(Box::new(self.driven(point)?));
+        }
+        let (model, input) = (self.model_at(&self.points[point])?, self.input.clone());
+        Ok(Box::new(PrescribedMotion::new(model, input, (0.0, self.span))))
+    }
+
+    /// The plant with its model at a point.
+    pub(crate) fn driven(&self, point: usize) -> Result<DrivenPlant, String> {
+        let point = &self.points[point];
+        let plant = point.plant.ok_or("an imposed motion where a plant is needed")?;
+        Ok(DrivenPlant::new(self.model_at(point)?, plant, self.input.clone(), (0.0, self.span)))
+    }
+
+    /// What errors are taken of.
+    pub fn response(&self) -> &'static str {
+        match self.plant.map(|plant| plant.q_unit) {
+            None => "force F",
+            Some("rad") => "angle θ",
+            Some(_) => "displacement q",
+        }
     }
 
     /// Whether the steps of this case are kept.
@@ -191,110 +214,6 @@ impl Study {
     }
 }
 
-fn build(model: &ModelEntry, parameters: &Parameters) -> Result<Box<dyn FrictionModel>, Complaint> {
-    (model.build)(parameters).map_err(|e| {
-        let at = format!("model.{}", e.key());
-        match e {
-            ParameterError::Unknown { expected, .. } => {
-                Complaint::new(at, "an unknown key", format!("one of {expected}"))
-            }
-            ParameterError::Missing { expected, .. } => Complaint::new(at, "nothing", expected),
-            ParameterError::Invalid { found, expected, .. } => Complaint::new(at, found, expected),
-        }
-    })
-}
-
-/// The model's entry and its parameters outside the sweep.
-fn model(table: &toml::Table) -> Result<(&'static ModelEntry, Parameters), Complaint> {
-    let name = input::text(table, "name").map_err(|c| c.under("model"))?;
-    let known = MODELS.iter().map(|m| m.name);
-    let entry = MODELS
-        .iter()
-        .find(|m| m.name == name)
-        .ok_or_else(|| Complaint::new("model.name", format!("`{name}`"), one_of(name, known)))?;
-    let mut parameters = BTreeMap::new();
-    for (key, value) in table.iter().filter(|(key, _)| *key != "name") {
-        if !entry.keys.contains(&key.as_str()) {
-            let expected = one_of(key, entry.keys.iter().copied());
-            return Err(Complaint::new(format!("model.{key}"), "an unknown key", expected));
-        }
-        let value = parameter(value)
-            .ok_or_else(|| Complaint::new(format!("model.{key}"), value.to_string(), "a number"))?;
-        parameters.insert(key.clone(), value);
-    }
-    Ok((entry, Parameters(parameters)))
-}
-
-fn parameter(value: &toml::Value) -> Option<Parameter> {
-    if let Some(list) = value.as_array() {
-        return list.iter().map(input::as_number).collect::<Option<_>>().map(Parameter::List);
-    }
-    input::as_number(value).map(Parameter::Scalar)
-}
-
-/// Every combination of the sweep's values, each tried as a model.
-fn points(
-    spec: &StudySpec,
-    model: &ModelEntry,
-    base: &Parameters,
-) -> Result<Vec<Point>, Complaint> {
-    let mut points =
-        vec![Point { label: String::new(), values: BTreeMap::new(), parameters: base.clone() }];
-    for (key, values) in &spec.sweep {
-        let at = format!("sweep.{key}");
-        if !model.keys.contains(&key.as_str()) {
-            let expected = one_of(key, model.keys.iter().copied());
-            return Err(Complaint::new(at, "an unknown parameter", expected));
-        }
-        if values.is_empty() {
-            return Err(Complaint::new(at, "an empty list", "at least one value"));
-        }
-        if base.0.contains_key(key) {
-            let expected = "the parameter in `model` or in `sweep`, not in both";
-            return Err(Complaint::new(at, "a second value", expected));
-        }
-        if points.len() * values.len() > MOST_POINTS {
-            let found = format!("more than {MOST_POINTS} points");
-            return Err(Complaint::new("sweep", found, "fewer values"));
-        }
-        let grown = points.iter().flat_map(|point| {
-            values.iter().map(move |value| {
-                let mut point = point.clone();
-                let space = if point.label.is_empty() { "" } else { " " };
-                point.label = format!("{}{space}{key}={value}", point.label);
-                point.values.insert(key.clone(), *value);
-                point.parameters.0.insert(key.clone(), Parameter::Scalar(*value));
-                point
-            })
-        });
-        points = grown.collect();
-    }
-    for point in &points {
-        build(model, &point.parameters).map_err(|mut c| {
-            let key = c.key.trim_start_matches("model.");
-            if spec.sweep.contains_key(key) {
-                c.key = format!("sweep.{key}");
-            }
-            c
-        })?;
-    }
-    Ok(points)
-}
-
-fn model_text(model: &ModelEntry, base: &Parameters, sweep: &BTreeMap<String, Vec<f64>>) -> String {
-    let list = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-    let mut parts = vec![];
-    for (key, unit) in model.keys.iter().zip(model.units) {
-        let value = match (base.0.get(*key), sweep.get(*key)) {
-            (_, Some(values)) | (Some(Parameter::List(values)), None) => list(values),
-            (Some(Parameter::Scalar(value)), None) => value.to_string(),
-            (None, None) => continue,
-        };
-        parts.push(format!("{key} = {value} {unit}").trim_end().to_owned());
-    }
-    format!("{}: {}", model.name, parts.join("; "))
-}
-
 /// The solvers of these names and sets, each once, in the order of the list.
 pub(crate) fn solvers(names: &[String]) -> Result<Vec<&'static Solver>, Complaint> {
     let mut found: Vec<&'static Solver> = Vec::new();
@@ -314,6 +233,34 @@ pub(crate) fn solvers(names: &[String]) -> Result<Vec<&'static Solver>, Complain
         }
     }
     Ok(found)
+}
+
+/// What steps are counted over, and the end of the time span.
+fn span(spec: &StudySpec, input: &Input) -> Result<(f64, f64), Complaint> {
+    match (spec.periods, spec.span) {
+        (Some(periods), None) => {
+            if !(periods > 0.0 && periods <= 1e4) {
+                let expected = "above 0, at most 1e4";
+                return Err(Complaint::new("periods", periods.to_string(), expected));
+            }
+            let period = input.period().ok_or_else(|| {
+                let expected = "a periodic one, or `span` in the place of `periods`";
+                Complaint::new("input.shape", "an input without a period", expected)
+            })?;
+            Ok((period, periods * period))
+        }
+        (None, Some(span)) => {
+            if !(span > 0.0 && span <= 1e9) {
+                let expected = "a time above 0 [s], at most 1e9";
+                return Err(Complaint::new("span", span.to_string(), expected));
+            }
+            Ok((span, span))
+        }
+        (None, None) => Err(Complaint::new("periods", "none", "`periods` or `span`")),
+        (Some(_), Some(_)) => {
+            Err(Complaint::new("span", "`periods` besides it", "`periods` or `span`, not both"))
+        }
+    }
 }
 
 fn steps(steps: &[f64], periods: f64) -> Result<Vec<f64>, Complaint> {
@@ -366,14 +313,4 @@ pub(super) fn corners(names: &[String]) -> Result<Vec<Corners>, Complaint> {
         return Err(Complaint::new("corners", format!("{names:?}"), "each once"));
     }
     names.iter().map(one).collect()
-}
-
-fn reference(name: Option<&str>) -> Result<Option<&'static ReferenceEntry>, Complaint> {
-    let Some(name) = name else { return Ok(None) };
-    let known = REFERENCES.iter().map(|r| r.name);
-    REFERENCES
-        .iter()
-        .find(|r| r.name == name)
-        .map(Some)
-        .ok_or_else(|| Complaint::new("reference", format!("`{name}`"), one_of(name, known)))
 }

@@ -27,6 +27,7 @@ macro_rules! quantity {
             what: $what,
             method: $method,
             second: $second,
+            takes: &[],
             code: concat!("crates/duhem/src/closed_form/dahl/", $file),
             measure: $measure,
         };
@@ -198,6 +199,9 @@ quantity!(
 
 fn model<'a>(plan: &'a Plan, subject: &Subject) -> Result<(Dahl, &'a Study), String> {
     let study = &plan.studies[subject.study];
+    if study.plant.is_some() {
+        return Err("a plant where an imposed motion is needed".to_owned());
+    }
     let point = &study.points[*subject.points.first().ok_or("no point of the sweep")?];
     Ok((Dahl::new(&point.parameters).map_err(|e| e.to_string())?, study))
 }

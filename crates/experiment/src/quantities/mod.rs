@@ -1,8 +1,14 @@
 //! What can be measured: one entry for each quantity, with the two ways it is obtained.
 
 mod dahl;
+mod path;
+mod plant;
+mod quasi_static;
+mod rig;
 
-use crate::plan::{Plan, Subject};
+pub(crate) use path::View;
+
+use crate::plan::{Plan, Study, Subject, angular};
 
 /// A measured value with an honest bound of its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +35,7 @@ pub struct Quantity {
     pub name: &'static str,
     /// The model it is a quantity of.
     pub model: &'static str,
-    /// Its unit; `1` for none.
+    /// Its unit; `1` for none. Of a plant that turns, its angular twin: N·m for N, rad for m.
     pub unit: &'static str,
     /// What it is, in words.
     pub what: &'static str,
@@ -39,8 +45,18 @@ pub struct Quantity {
     pub second: &'static str,
     /// Where the code is.
     pub code: &'static str,
+    /// The numbers it takes from the TOML, besides values of the sweep.
+    pub takes: &'static [&'static str],
     /// Takes it.
     pub measure: fn(&Plan, &Subject) -> Result<Measured, String>,
+}
+
+impl Quantity {
+    /// Its unit in a study.
+    pub fn unit_in(&self, study: &Study) -> &'static str {
+        let turning = study.plant.is_some_and(|plant| plant.q_unit == "rad");
+        if turning { angular(self.unit) } else { self.unit }
+    }
 }
 
 /// All quantities.
@@ -56,6 +72,32 @@ pub const QUANTITIES: &[Quantity] = &[
     dahl::F_MINUS_AT_ZERO,
     dahl::F_MINUS_AT_ZERO_AS_PRINTED,
     dahl::SPEED_AT_ZERO_FORCE,
+    plant::Q_MAX,
+    plant::Q_MIN,
+    plant::V_MAX,
+    plant::V_MIN,
+    plant::DISPLACEMENT_DIFFERENCE,
+    plant::TURN_TIME,
+    plant::TURN_DISPLACEMENT,
+    plant::WORK_OF_DRIVE,
+    plant::SLIPS,
+    plant::SLIP_ONSET_TIME,
+    plant::SLIP_ONSET_DRIVE,
+    plant::SLIP_RISE,
+    plant::SLIP_PEAK_SPEED,
+    plant::SLIP_FORCE_PEAK,
+    plant::SLIP_FORCE_MIN,
+    plant::SLIP_FORCE_REST,
+    plant::SLIP_FORCE_DROP,
+    plant::STICK_DRIVE,
+    plant::FULL_SLIPS,
+    quasi_static::Q_MAX,
+    quasi_static::AREA,
+    quasi_static::FIRST_PEAK,
+    rig::STIFFNESS,
+    rig::DRIVE_AMPLITUDE,
+    rig::SLACK_ANGLE,
+    rig::FULL_SLIP_FORCE,
 ];
 
 #[cfg(test)]

@@ -1,0 +1,86 @@
+//! The figures of an experiment, checked.
+
+use super::Study;
+use crate::{
+    error::{Complaint, one_of},
+    spec::{FigureSpec, Spec},
+};
+
+/// What a panel may show: the vertical quantity, then the horizontal one. Of a plant, `drive` is the force
+/// (or torque) that its input makes.
+pub(crate) const SHOWS: [&str; 8] = [
+    "force-displacement",
+    "force-velocity",
+    "force-time",
+    "displacement-time",
+    "velocity-time",
+    "displacement-drive",
+    "drive-time",
+    "step-time",
+];
+
+/// The figures, their studies, values and panels looked up.
+pub(super) fn check(
+    spec: &Spec,
+    studies: &[Study],
+    kinds: &[&str],
+) -> Result<Vec<FigureSpec>, Complaint> {
+    let study = |name: &String, key: String| {
+        let known = studies.iter().map(|s| s.name.as_str());
+        studies
+            .iter()
+            .find(|s| s.name == *name)
+            .ok_or_else(|| Complaint::new(key, format!("`{name}`"), one_of(name, known)))
+    };
+    for (i, figure) in spec.figure.iter().enumerate() {
+        let key = |k: &str| format!("figure[{i}].{k}");
+        for id in crate::judge::placeholders(&figure.caption) {
+            super::judged::known(spec, id).map_err(|c| c.under(&key("caption")))?;
+        }
+        if !kinds.contains(&figure.kind.as_str()) {
+            let expected = one_of(&figure.kind, kinds.iter().copied());
+            return Err(Complaint::new(key("kind"), format!("`{}`", figure.kind), expected));
+        }
+        if let Some(name) = &figure.study {
+            study(name, key("study"))?
+                .selected(&figure.select)
+                .map_err(|c| c.under(&key("select")))?;
+        }
+        if let (Some(value), Some(name)) = (figure.value, &figure.study) {
+            let study = study(name, key("study"))?;
+            if !study.steps.iter().chain(&study.rtol).any(|v| *v == value) {
+                let expected = format!("a step or a tolerance of study `{name}`");
+                return Err(Complaint::new(key("value"), format!("{value:e}"), expected));
+            }
+        }
+        super::study::solvers(&figure.solvers).map_err(|c| c.under(&format!("figure[{i}]")))?;
+        for (p, panel) in figure.panel.iter().enumerate() {
+            let key = |k: &str| format!("figure[{i}].panel[{p}].{k}");
+            if let Some(name) = &panel.study {
+                study(name, key("study"))?;
+            } else if figure.study.is_none() {
+                return Err(Complaint::new(key("study"), "none", "a study, here or in the figure"));
+            }
+            if !SHOWS.contains(&panel.show.as_str()) {
+                let expected = one_of(&panel.show, SHOWS);
+                return Err(Complaint::new(key("show"), format!("`{}`", panel.show), expected));
+            }
+            let shown = panel.study.as_ref().or(figure.study.as_ref());
+            let plant = studies.iter().any(|s| Some(&s.name) == shown && s.plant.is_some());
+            let imposed = panel.show.starts_with("force-") && panel.show != "force-time";
+            if !plant && !imposed && panel.show != "step-time" {
+                let found = format!("`{}` of an imposed motion", panel.show);
+                let expected = "`force-displacement` or `force-velocity`, or a study with a plant";
+                return Err(Complaint::new(key("show"), found, expected));
+            }
+            if !plant
+                && panel.show != "step-time"
+                && !["settled", "from-start"].contains(&panel.from.as_str())
+            {
+                let expected = one_of(&panel.from, ["settled", "from-start"]);
+                return Err(Complaint::new(key("from"), format!("`{}`", panel.from), expected));
+            }
+        }
+    }
+    Ok(spec.figure.clone())
+}

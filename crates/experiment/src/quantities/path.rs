@@ -1,0 +1,206 @@
+//! What is read off a solved plant: extremes, turns, slips, work.
+
+use duhem::sgn;
+use simulation::{DrivenPlant, Motion, Path};
+
+/// How long the contact rings after a slip's stop [s]; by then it is at rest.
+pub(crate) const RINGING: f64 = 0.2;
+/// Parts into which the stretch between two nodes is cut to look for an extreme.
+const PARTS: u32 = 4;
+
+/// One slip of a stick-slip motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Slip {
+    /// Where |v| rises through v_S [s].
+    pub(crate) onset: f64,
+    /// The first v = 0 after it [s].
+    pub(crate) stop: f64,
+}
+
+/// A solved plant with its model, to be looked at.
+#[derive(Debug)]
+pub(crate) struct View<'a> {
+    path: &'a Path,
+    motion: &'a DrivenPlant,
+    /// The Stribeck velocity [m/s], of a model that has one.
+    v_s: Option<f64>,
+}
+
+impl<'a> View<'a> {
+    pub(crate) fn new(path: &'a Path, motion: &'a DrivenPlant, v_s: Option<f64>) -> Self {
+        Self { path, motion, v_s }
+    }
+
+    pub(crate) fn end(&self) -> f64 {
+        self.path.end().map_or(0.0, |(t, _)| t)
+    }
+
+    pub(crate) fn q(&self, t: f64) -> f64 {
+        self.path.q(t)
+    }
+
+    pub(crate) fn v(&self, t: f64) -> f64 {
+        self.path.v(t)
+    }
+
+    /// The friction force [N].
+    pub(crate) fn force(&self, t: f64) -> f64 {
+        let mut y = vec![0.0; self.path.states()];
+        self.path.state(t, &mut y);
+        self.motion.force(t, &y)
+    }
+
+    /// The driving force [N].
+    pub(crate) fn drive(&self, t: f64) -> f64 {
+        self.motion.plant().drive(self.motion.input().u(t))
+    }
+
+    /// The largest or the smallest q: at the ends or at a turn.
+    pub(crate) fn extreme_q(&self, better: fn(f64, f64) -> f64) -> f64 {
+        let ends = [self.path.t().first().copied().unwrap_or(0.0), self.end()];
+        let times = self.path.reversals().into_iter().chain(ends);
+        times.map(|t| self.q(t)).fold(self.q(ends[0]), better)
+    }
+
+    /// The largest v over a span for `side` 1, the smallest for −1.
+    pub(crate) fn extreme_v(&self, span: (f64, f64), side: f64) -> f64 {
+        self.extreme(span, side, |t| self.v(t))
+    }
+
+    /// The same of the friction force.
+    pub(crate) fn extreme_f(&self, span: (f64, f64), side: f64) -> f64 {
+        self.extreme(span, side, |t| self.force(t))
+    }
+
+    fn extreme(&self, (from, to): (f64, f64), side: f64, of: impl Fn(f64) -> f64) -> f64 {
+        let value = |t: f64| side * of(t);
+        let grid = self.grid((from, to));
+        let values: Vec<f64> = grid.iter().map(|t| value(*t)).collect();
+        let best = (0..grid.len()).max_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
+        let (low, high) = (grid[best.saturating_sub(1)], grid[(best + 1).min(grid.len() - 1)]);
+        side * golden((low, high), &value).max(values[best])
+    }
+
+    /// The nodes of a span with points between them.
+    fn grid(&self, (from, to): (f64, f64)) -> Vec<f64> {
+        let nodes = self.path.t();
+        let inside =
+            &nodes[nodes.partition_point(|t| *t <= from)..nodes.partition_point(|t| *t < to)];
+        let ends: Vec<f64> = [from].into_iter().chain(inside.iter().copied()).chain([to]).collect();
+        let between = |pair: &[f64]| {
+            let (a, b) = (pair[0], pair[1]);
+            (0..PARTS)
+                .map(move |i| a + (b - a) * f64::from(i) / f64::from(PARTS))
+                .collect::<Vec<_>>()
+        };
+        ends.windows(2).flat_map(between).chain([to]).collect()
+    }
+
+    /// The smallest and the largest value of a function of time on a stretch, at its nodes and its ends; in
+    /// the order in which they come.
+    pub(crate) fn ends(
+        &self,
+        span: (f64, f64),
+        of: &dyn Fn(f64) -> f64,
+    ) -> std::vec::IntoIter<f64> {
+        let grid = self.grid(span);
+        let values: Vec<f64> = grid.iter().map(|t| of(*t)).collect();
+        let by = |a: &usize, b: &usize| values[*a].total_cmp(&values[*b]);
+        let low = (0..values.len()).min_by(by).unwrap_or(0);
+        let high = (0..values.len()).max_by(by).unwrap_or(0);
+        vec![values[low.min(high)], values[low.max(high)]].into_iter()
+    }
+
+    /// The time of the reversal of this number, from 1.
+    pub(crate) fn turn(&self, number: f64) -> Result<f64, String> {
+        let turns = self.path.reversals();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a small number"
+        )]
+        let found = turns.get((number as usize).wrapping_sub(1)).copied();
+        found.ok_or_else(|| format!("there are {} reversals, not {number}", turns.len()))
+    }
+
+    /// ∫ drive dq over a span: Simpson's rule on drive · v between nodes.
+    pub(crate) fn work(&self, span: (f64, f64)) -> f64 {
+        let power = |t: f64| self.drive(t) * self.v(t);
+        let simpson = |pair: &[f64]| {
+            let (a, b) = (pair[0], pair[1]);
+            (b - a) / 6.0 * (power(a) + 4.0 * power(0.5 * (a + b)) + power(b))
+        };
+        self.grid(span).windows(2).map(simpson).sum()
+    }
+
+    /// The slips, in order: |v| rises through v_S, and not because the contact still rings.
+    pub(crate) fn slips(&self) -> Result<Vec<Slip>, String> {
+        let v_s = self.v_s.ok_or("slips are told by v_S, which the model has not")?;
+        let over = |t: f64| self.v(t).abs() - v_s;
+        let turns = self.path.reversals();
+        let mut slips: Vec<Slip> = Vec::new();
+        for pair in self.path.t().windows(2) {
+            if !(over(pair[0]) <= 0.0 && over(pair[1]) > 0.0) {
+                continue;
+            }
+            let onset = crossing((pair[0], pair[1]), &over);
+            if slips.last().is_some_and(|s| onset < s.stop + RINGING) {
+                continue;
+            }
+            let next = turns.partition_point(|t| *t <= onset);
+            let Some(stop) = turns.get(next) else { break };
+            slips.push(Slip { onset, stop: *stop });
+        }
+        Ok(slips)
+    }
+
+    /// The slip of this number, from 1.
+    pub(crate) fn slip(&self, number: f64) -> Result<Slip, String> {
+        let slips = self.slips()?;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a small number"
+        )]
+        let found = slips.get((number as usize).wrapping_sub(1)).copied();
+        found.ok_or_else(|| format!("there are {} slips, not {number}", slips.len()))
+    }
+
+    /// How often the motion turns while every element slips: all deflections at their deadbands.
+    pub(crate) fn full_slips(&self) -> Result<f64, String> {
+        let delta = self.motion.model().scale();
+        let mut y = vec![0.0; self.path.states()];
+        let mut count = 0.0;
+        for turn in self.path.reversals() {
+            self.path.state(turn, &mut y);
+            let z: Vec<f64> = y[2..].iter().map(|x| y[0] - x).collect();
+            let at_limit = |(z, delta): (&f64, &f64)| z.abs() >= delta * (1.0 - 1e-9);
+            let one_way = z.iter().all(|other| sgn(*other) == sgn(z[0]));
+            if one_way && z.iter().zip(&delta).all(at_limit) {
+                count += 1.0;
+            }
+        }
+        Ok(count)
+    }
+}
+
+/// Where `of` rises through zero in a bracket, to the last digit.
+fn crossing((mut low, mut high): (f64, f64), of: &dyn Fn(f64) -> f64) -> f64 {
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return high;
+        }
+        if of(middle) > 0.0 { high = middle } else { low = middle }
+    }
+}
+
+/// The largest value in a bracket with one maximum, by golden section.
+fn golden((mut low, mut high): (f64, f64), of: &dyn Fn(f64) -> f64) -> f64 {
+    const SHARE: f64 = 0.381_966_011_250_105_1;
+    for _ in 0..60 {
+        let (a, b) = (low + SHARE * (high - low), high - SHARE * (high - low));
+        if of(a) < of(b) { low = a } else { high = b }
+    }
+    of(0.5 * (low + high))
+}
