@@ -8,6 +8,7 @@
 //! [`DrivenPlant`], the two of them; [`Path`], a plant's motion once solved.
 
 mod driven;
+pub mod exact;
 mod motion;
 mod path;
 mod prescribed;
