@@ -4,7 +4,10 @@ use duhem::{
     Dahl, Harmonic, Input, MaxwellSlip, Rig,
     closed_form::dahl::settling::{Contact, HeldMass},
 };
-use simulation::exact::{EventKind, ExactError, SlipPlant};
+use simulation::{
+    SimulationError,
+    exact::{EventKind, SlipPlant},
+};
 
 /// The rig of Figure 22 with `share` of its torque.
 fn rig(share: f64) -> SlipPlant {
@@ -191,7 +194,7 @@ fn a_plant_in_balance_stays() {
 #[test]
 fn what_has_no_exact_solution_is_refused_in_words() {
     let plant = small(4.0, 1.0);
-    let words = |result: Result<_, ExactError>| match result {
+    let words = |result: Result<_, SimulationError>| match result {
         Ok(_) => "solved".to_owned(),
         Err(error) => error.to_string(),
     };
@@ -204,5 +207,5 @@ fn what_has_no_exact_solution_is_refused_in_words() {
     assert!(words(massless.solve(&[0.0; 4], (0.0, 1.0))).contains("mass"));
     let triangle = Input::triangle(1.0, 1.0).unwrap();
     let error = SlipPlant::new(plant.model, &Rig::PAPER.plant(), &triangle).unwrap_err();
-    assert_eq!(error, ExactError::Drive);
+    assert_eq!(error, SimulationError::Drive);
 }

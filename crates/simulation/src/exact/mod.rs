@@ -13,6 +13,10 @@ mod turn;
 
 pub use energy::Energy;
 
+use crate::{
+    SimulationError,
+    error::{check_span, deflections},
+};
 use arc::{Arc, Point};
 use duhem::{Harmonic, Input, MaxwellSlip, Plant, sgn};
 use turn::{bisect, first_turn};
@@ -54,52 +58,6 @@ pub struct Event {
     pub kind: EventKind,
 }
 
-/// Why there is no exact solution.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ExactError {
-    /// The plant cannot be.
-    #[error("{key} = {found}: expected {expected}")]
-    Plant {
-        /// Which value.
-        key: &'static str,
-        /// What it is.
-        found: f64,
-        /// What it may be.
-        expected: &'static str,
-    },
-    /// The drive is not one sine.
-    #[error("a drive that is no sine: expected a sine, an offset cosine or a constant")]
-    Drive,
-    /// The initial state is not one of this plant.
-    #[error(
-        "y0 = {found:?}: expected q, v and {elements} positions x_i, all finite, with |q - x_i| ≤ Δ_i"
-    )]
-    InitialState {
-        /// The state found.
-        found: Vec<f64>,
-        /// The model's number of elements.
-        elements: usize,
-    },
-    /// The time span is empty or not finite.
-    #[error("span = [{start}, {end}] s: expected a finite start before a finite end")]
-    Span {
-        /// Its start [s].
-        start: f64,
-        /// Its end [s].
-        end: f64,
-    },
-    /// The span holds too many of the plant's own periods.
-    #[error(
-        "{needed:e} steps of a sixteenth period: expected at most {most:e}, take a shorter span"
-    )]
-    TooLong {
-        /// How many it needs.
-        needed: f64,
-        /// How many it may have.
-        most: f64,
-    },
-}
-
 /// The motion between two events.
 #[derive(Debug, Clone)]
 struct Leg {
@@ -127,20 +85,19 @@ const MOST_STEPS: f64 = 5e7;
 
 impl SlipPlant {
     /// The plant with this friction under this input.
-    pub fn new(model: MaxwellSlip, plant: &Plant, input: &Input) -> Result<Self, ExactError> {
+    pub fn new(model: MaxwellSlip, plant: &Plant, input: &Input) -> Result<Self, SimulationError> {
         let Plant { mass, stiffness, gain, offset } = *plant;
         let Harmonic { amplitude, omega, phase, constant } =
-            input.harmonic().ok_or(ExactError::Drive)?;
+            input.harmonic().ok_or(SimulationError::Drive)?;
         let (amplitude, constant) = (gain * amplitude, gain * constant + offset);
         let drive = Harmonic { amplitude, omega, phase, constant };
         Ok(Self { model, mass, stiffness, drive })
     }
 
     /// The solution from `y0` = [q, v, x₁ … x_N] at the start of the span [s].
-    pub fn solve(&self, y0: &[f64], span: (f64, f64)) -> Result<ExactSolution, ExactError> {
-        self.check(y0, span)?;
-        let z: Vec<f64> = y0[2..].iter().map(|x| y0[0] - x).collect();
-        let z = z.iter().zip(&self.model.delta).map(|(z, d)| z.clamp(-d, *d)).collect();
+    pub fn solve(&self, y0: &[f64], span: (f64, f64)) -> Result<ExactSolution, SimulationError> {
+        self.check(span)?;
+        let z = deflections(&self.model, y0)?;
         let mut now = Now { t: span.0, q: y0[0], v: y0[1], z, s: sgn(y0[1]) };
         let (mut legs, mut events) = (Vec::new(), Vec::new());
         while now.t < span.1 {
@@ -156,8 +113,8 @@ impl SlipPlant {
         Ok(ExactSolution { plant: self.clone(), legs, events })
     }
 
-    fn check(&self, y0: &[f64], (start, end): (f64, f64)) -> Result<(), ExactError> {
-        let plant = |key, found, expected| Err(ExactError::Plant { key, found, expected });
+    fn check(&self, (start, end): (f64, f64)) -> Result<(), SimulationError> {
+        let plant = |key, found, expected| Err(SimulationError::Plant { key, found, expected });
         if !(self.mass.is_finite() && self.mass > 0.0) {
             return plant("mass", self.mass, "a positive mass [kg]");
         }
@@ -171,24 +128,14 @@ impl SlipPlant {
         if !(amplitude + phase + constant).is_finite() {
             return plant("drive", amplitude + phase + constant, "finite forces [N] and phase");
         }
-        if !(start.is_finite() && end.is_finite() && start < end) {
-            return Err(ExactError::Span { start, end });
-        }
-        let elements = self.model.k.len();
-        // A deadband may be exceeded by the rounding of q − x.
-        let slack = 1e-12 * y0.first().map_or(0.0, |q| q.abs());
-        let within = |(x, delta): (&f64, &f64)| (y0[0] - x).abs() <= delta * (1.0 + 1e-12) + slack;
-        let finite = y0.len() == elements + 2 && y0.iter().all(|y| y.is_finite());
-        if !finite || !y0[2..].iter().zip(&self.model.delta).all(within) {
-            return Err(ExactError::InitialState { found: y0.to_vec(), elements });
-        }
+        check_span((start, end))?;
         let stiffest = self.stiffness + self.model.k.iter().sum::<f64>();
         let fastest = (stiffest / self.mass).sqrt().max(self.drive.omega);
         let needed = (end - start) * fastest * 16.0 / std::f64::consts::TAU;
         if needed <= MOST_STEPS {
             return Ok(());
         }
-        Err(ExactError::TooLong { needed, most: MOST_STEPS })
+        Err(SimulationError::TooLong { needed, most: MOST_STEPS })
     }
 
     /// The leg that begins now, with those elements slipping that are at their limit in the direction s.
