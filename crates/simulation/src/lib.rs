@@ -7,13 +7,17 @@
 //! Read first: [`Motion`], what a solver is run on and judged in; [`PrescribedMotion`] and
 //! [`DrivenPlant`], the two of them; [`Path`], a plant's motion once solved.
 
+pub mod displacement;
 mod driven;
+mod error;
+pub mod exact;
 mod motion;
 mod path;
 mod prescribed;
 mod reference;
 
 pub use driven::DrivenPlant;
+pub use error::SimulationError;
 pub use motion::Motion;
 pub use path::Path;
 pub use prescribed::PrescribedMotion;
