@@ -71,6 +71,7 @@ fn study_row(study: &Study) -> Result<StudyRow, String> {
         input: study.input_text.clone(),
         text: folded(&study.text),
         reference: study.reference.map_or("", |r| r.name).to_owned(),
+        response: "force F".to_owned(),
         period: study.period,
         span: study.span,
         budget: study.budget,

@@ -44,7 +44,8 @@ pub(crate) fn told(study: &StudyRow) -> Vec<(&'static str, String)> {
     });
     let reference = match study.reference.as_str() {
         "" => String::new(),
-        name => format!("reference “{name}”{error}"),
+        name if study.response.is_empty() => format!("reference “{name}”{error}"),
+        name => format!("reference “{name}”{error}; errors of the {}", study.response),
     };
     let mut told = vec![
         ("Model", number::greek(&study.model)),

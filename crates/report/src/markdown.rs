@@ -126,7 +126,7 @@ fn errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
         put!(
             out,
             "\n## {name}: errors\n{}\n{}\nEvery case: [cases.csv](cases.csv).\n",
-            paragraphs(grid::BEST_READ),
+            paragraphs(&grid::best_read(chapter.summary, study)),
             table.markdown()
         );
     }

@@ -131,7 +131,7 @@ fn of_charts(
         return Err(incomplete(figure, "no case that it could show", "one or more"));
     }
     align(&mut charts, columns);
-    let panels = charts.iter().map(Chart::draw).collect::<Result<_, _>>().map_err(fault(figure))?;
+    let panels = small(figure, &mut charts)?;
     let same = |label: fn(&Chart) -> &str, otherwise: &str| {
         let first = label(&charts[0]);
         if charts.iter().all(|chart| label(chart) == first) { first } else { otherwise }.to_owned()
@@ -139,6 +139,23 @@ fn of_charts(
     let x = same(|chart| &chart.x.label, "x");
     let y = same(|chart| &chart.y.label, "y");
     Ok(Drawing { panels, columns, data: charts.iter().flat_map(values).collect(), x, y })
+}
+
+/// The most that the panels of one figure may take [bytes]; with its style and title a file stays below 150 kB.
+const MOST: usize = 140_000;
+
+/// The panels, their lines thinned until they are small enough: a long history can turn a thousand times.
+fn small(figure: &FigureRow, charts: &mut [Chart]) -> Result<Vec<Panel>, ReportError> {
+    for coarse in 0..=5 {
+        charts.iter_mut().for_each(|chart| chart.coarse = coarse);
+        let drawn = charts.iter().map(Chart::draw).collect::<Result<Vec<_>, _>>();
+        let panels = drawn.map_err(fault(figure))?;
+        if panels.iter().map(|panel| panel.body.len()).sum::<usize>() <= MOST {
+            return Ok(panels);
+        }
+    }
+    let expected = format!("at most {} kB, in fewer panels or series", MOST / 1000);
+    Err(incomplete(figure, "more lines than a picture can hold", &expected))
 }
 
 fn values(chart: &Chart) -> Vec<Datum> {

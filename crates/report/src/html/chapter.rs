@@ -90,7 +90,7 @@ fn write_errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
         put!(
             out,
             "<h3>{name}: errors</h3>\n<p>{}</p>\n{}",
-            html(grid::BEST_READ),
+            html(&grid::best_read(summary, study)),
             table.html(&format!("Smallest errors of {heading}"))
         );
     }
