@@ -70,6 +70,7 @@ fn study_row(study: &Study) -> Result<StudyRow, String> {
         input: study.input_text.clone(),
         text: folded(&study.text),
         reference: study.reference.as_ref().map_or_else(String::new, Answers::words),
+        response: study.response().to_owned(),
         period: study.period,
         span: study.span,
         budget: study.budget,

@@ -23,4 +23,4 @@ pub use summary::Summary;
 pub use table::{Cell, Table};
 
 /// The version of every file this crate writes; part of each record's key.
-pub const FORMAT: u32 = 1;
+pub const FORMAT: u32 = 2;

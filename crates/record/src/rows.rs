@@ -27,6 +27,8 @@ table! {
         text: String = "text",
         /// The name of the exact answer errors are judged by; empty if none is run.
         reference: String = "reference",
+        /// What errors are errors of, as `force F` or `displacement q`; empty if that is not said.
+        response: String = "response",
         /// The period of the input.
         period: f64 = "period [s]",
         /// The end of the time span; it starts at 0.

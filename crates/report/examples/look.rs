@@ -1,4 +1,4 @@
-//! Writes a report to look at: `look FOLDER` the made-up one, `look FOLDER reports/NAME …` of real tables.
+//! Writes a report to look at: `look FOLDER` the made-up ones, `look FOLDER reports/NAME …` of real tables.
 
 #[path = "../tests/fixture/mod.rs"]
 mod fixture;
@@ -12,7 +12,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut summaries =
         words.map(|name| Summary::read(Path::new(&name))).collect::<Result<Vec<_>, _>>()?;
     if summaries.is_empty() {
-        summaries = vec![fixture::summary()];
+        summaries = fixture::five();
     }
     for output in report::render(&summaries)? {
         write_whole(&Path::new(&folder).join(&output.path), &output.bytes)?;

@@ -1,6 +1,6 @@
 //! One experiment on its way to the pages: its tables, its folder, its drawn figures.
 
-use crate::figures::{Drawing, draw};
+use crate::figures::{Drawing, FigureKind, draw};
 use crate::number;
 use crate::plot::file;
 use crate::{Output, ReportError, escape};
@@ -26,8 +26,8 @@ pub(crate) struct Figure<'a> {
     pub(crate) name: String,
     /// Its element in the page.
     pub(crate) id: String,
-    /// How to read it.
-    pub(crate) reads: &'static str,
+    /// Its kind.
+    pub(crate) kind: &'static FigureKind,
     /// What is drawn.
     pub(crate) drawing: Drawing,
 }
@@ -44,7 +44,8 @@ pub(crate) fn told(study: &StudyRow) -> Vec<(&'static str, String)> {
     });
     let reference = match study.reference.as_str() {
         "" => String::new(),
-        name => format!("reference “{name}”{error}"),
+        name if study.response.is_empty() => format!("reference “{name}”{error}"),
+        name => format!("reference “{name}”{error}; errors of the {}", study.response),
     };
     let mut told = vec![
         ("Model", number::greek(&study.model)),
@@ -76,8 +77,8 @@ impl<'a> Chapter<'a> {
                 return Err(ReportError::SameName { path: format!("{folder}/{name}.svg") });
             }
             let id = format!("{folder}--{name}");
-            let (drawing, reads) = draw(row, summary)?;
-            figures.push(Figure { row, name, id, reads, drawing });
+            let (drawing, kind) = draw(row, summary)?;
+            figures.push(Figure { row, name, id, kind, drawing });
         }
         Ok(Self { summary, folder, figures })
     }
@@ -92,13 +93,21 @@ impl<'a> Chapter<'a> {
         self.figures.iter().find(|figure| figure.row.figure == claim.figure)
     }
 
-    /// The figures of one study; those of no study belong to the empty name.
-    pub(crate) fn figures_of(&self, study: &str) -> impl Iterator<Item = &Figure<'a>> {
+    /// The figures of one study, those of the model first, then those of the solvers;
+    /// those of no study belong to the empty name.
+    pub(crate) fn figures_of(&self, study: &str) -> [Vec<&Figure<'a>>; 2] {
         let known = |name: &str| self.summary.studies.iter().any(|row| row.study == name);
-        self.figures.iter().filter(move |figure| {
+        let own = self.figures.iter().filter(|figure| {
             let own = figure.row.study.as_str();
             own == study || (study.is_empty() && !known(own))
-        })
+        });
+        let (solvers, model) = own.partition(|figure| figure.kind.of_solvers);
+        [model, solvers]
+    }
+
+    /// The claims of it that hold.
+    pub(crate) fn held_claims(&self) -> Vec<&'a ClaimRow> {
+        self.summary.claims.iter().filter(|claim| settled(claim)).collect()
     }
 
     /// The figures' own files: pictures and the values in them.
@@ -117,7 +126,7 @@ impl<'a> Chapter<'a> {
 }
 
 /// The values in a figure, with the axes' labels as headers.
-fn csv(drawing: &Drawing) -> String {
+pub(crate) fn csv(drawing: &Drawing) -> String {
     let header = ["panel", "series", &drawing.x, &drawing.y, "failure"];
     let line = |fields: [&str; 5]| fields.map(escape::csv).join(",") + "\n";
     let value = |v: Option<f64>| v.map_or_else(String::new, |v| format!("{v:?}"));
@@ -133,19 +142,49 @@ pub(crate) const PAPER: &str = "A reproduction of “Duhem Modeling of Friction-
      (IEEE Control Systems Magazine 28(5), 2008, doi 10.1109/MCS.2008.927331), its claims measured against \
      exact answers, and the ODE solvers that have to cope with them compared.";
 
-/// Every claim with its chapter: what does not hold first, then what cannot be decided, then what holds.
-pub(crate) fn claims_by_outcome<'a, 'b>(
+/// Whether a claim holds as it stands: what depends on something that is not printed does not.
+fn settled(claim: &ClaimRow) -> bool {
+    claim.holds == Some(true) && claim.verdict != "under-specified"
+}
+
+/// The claims that do not hold, then those that cannot be decided or not in full, each with its chapter.
+pub(crate) fn open_claims<'a, 'b>(
     chapters: &'b [Chapter<'a>],
 ) -> Vec<(&'b Chapter<'a>, &'a ClaimRow)> {
     let of =
         |chapter: &'b Chapter<'a>| chapter.summary.claims.iter().map(move |claim| (chapter, claim));
-    let mut all: Vec<_> = chapters.iter().flat_map(of).collect();
+    let mut all: Vec<_> = chapters.iter().flat_map(of).filter(|(_, c)| !settled(c)).collect();
     all.sort_by_key(|(_, claim)| match claim.holds {
         Some(false) => 0,
         None => 1,
         Some(true) => 2,
     });
     all
+}
+
+/// Whether the claims that hold are so few that a front can show a line of each.
+pub(crate) fn few_held(chapters: &[Chapter]) -> bool {
+    chapters.iter().map(|chapter| chapter.held_claims().len()).sum::<usize>() <= 30
+}
+
+/// The heading of what [`open_claims`] gives.
+pub(crate) const OPEN: &str = "What does not hold, or cannot be decided in full";
+
+/// A text's first sentence, and the others.
+pub(crate) fn split_first(text: &str) -> (String, String) {
+    let mut all = escape::sentences(text).into_iter();
+    (all.next().unwrap_or_default(), all.collect::<Vec<_>>().join(" "))
+}
+
+/// A number with its unit and the printed one before it, as the line of a claim that holds ends; often nothing.
+pub(crate) fn in_short(claim: &ClaimRow) -> String {
+    match (claim.printed, claim.ours) {
+        (Some(_), Some(_)) => {
+            let printed = number::printed(claim.printed, claim.digits, &claim.unit);
+            format!("printed {printed}, ours {}", ours(claim))
+        }
+        _ => String::new(),
+    }
 }
 
 /// What the front says first: how many claims hold, and the verdicts.

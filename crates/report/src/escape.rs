@@ -26,11 +26,16 @@ pub(crate) fn markdown(text: &str) -> String {
 
 /// Text in a quoted attribute of an element in Markdown.
 pub(crate) fn markdown_attribute(text: &str) -> String {
+    markdown_entities(&one_line(text))
+}
+
+/// Text of an element in Markdown: what either takes for markup stands as entities.
+pub(crate) fn markdown_entities(flat: &str) -> String {
     let entity = |c: char| match c {
-        '[' | ']' | '`' | '*' | '_' | '|' | '$' | '~' => format!("&#{};", u32::from(c)),
+        '[' | ']' | '`' | '*' | '_' | '|' | '$' | '~' | '@' => format!("&#{};", u32::from(c)),
         _ => c.to_string(),
     };
-    html(&one_line(text)).chars().map(entity).collect()
+    html(flat).chars().map(entity).collect()
 }
 
 /// Runs of blanks and line ends as single spaces.

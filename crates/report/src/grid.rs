@@ -3,7 +3,7 @@
 use crate::escape;
 use crate::number::{self, NONE};
 use crate::prose;
-use crate::select::{SOLVED, by_solver, distinct};
+use crate::select::{SOLVED, by_solver, distinct, response};
 use record::{CaseRow, OrderRow, Summary};
 
 /// A table to be shown: plain text in every cell, lines parted by `\n`.
@@ -89,10 +89,18 @@ pub(crate) const ORDERS_READ: &str = "Each cell: above restarted at corners, bel
      A ~ stands before a slope through three runs or fewer.";
 
 /// How the table of smallest errors is read.
-pub(crate) const BEST_READ: &str = "Each cell: the largest error of a run, at the step or tolerance where it is smallest; \
+const BEST_READ: &str = "Each cell: the largest error of a run, at the step or tolerance where it is smallest; \
      above restarted at corners, below with corners ignored. \
-     Then, after ✗, how many of the runs failed. \
-     Errors are relative to the reference’s largest value.";
+     Then, after ✗, how many of the runs failed.";
+
+/// How the table of smallest errors of one study is read, and what its errors are relative to.
+pub(crate) fn best_read(summary: &Summary, study: &str) -> String {
+    let of = match response(summary, study) {
+        "" => "value",
+        response => response,
+    };
+    format!("{BEST_READ} Errors are relative to the largest {of} of the reference.")
+}
 
 /// Fewer points than these make a slope, but not an order.
 const FEW: u64 = 4;

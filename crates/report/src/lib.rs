@@ -14,6 +14,7 @@ macro_rules! put {
     }};
 }
 
+mod across;
 mod chapter;
 mod error;
 mod escape;
@@ -30,6 +31,7 @@ pub use error::ReportError;
 pub use figures::{Datum, Drawing, FIGURES, FigureKind};
 pub use plot::Panel;
 
+use across::Across;
 use chapter::Chapter;
 use record::Summary;
 
@@ -45,11 +47,13 @@ pub struct Output {
 /// Renders everything there is to render from the summaries.
 pub fn render(summaries: &[Summary]) -> Result<Vec<Output>, ReportError> {
     let chapters = summaries.iter().map(Chapter::new).collect::<Result<Vec<_>, _>>()?;
+    let across = Across::new(&chapters)?;
     let text = |path: String, text: String| Output { path, bytes: text.into_bytes() };
     let mut all = vec![
-        text("index.html".to_owned(), html::page(&chapters)),
-        text("README.md".to_owned(), markdown::front(&chapters)),
+        text("index.html".to_owned(), html::page(&chapters, across.as_ref())),
+        text("README.md".to_owned(), markdown::front(&chapters, across.as_ref())),
     ];
+    all.extend(across.iter().flat_map(Across::files));
     for chapter in &chapters {
         let path = format!("{}/README.md", chapter.folder);
         if all.iter().any(|output| output.path.eq_ignore_ascii_case(&path)) {

@@ -1,7 +1,9 @@
 //! The same as Markdown, one sentence per line.
 
+use crate::across::{Across, MAP, NAME, READS, TITLE};
 use crate::chapter::{
-    Chapter, Figure, PAPER, claims_by_outcome, count_of_claims, heading, holds, ours, sign, told,
+    Chapter, Figure, OPEN, PAPER, count_of_claims, few_held, heading, holds, in_short, open_claims,
+    ours, sign, split_first, told,
 };
 use crate::escape::{code_path, markdown, markdown_attribute, sentences};
 use crate::grid;
@@ -11,21 +13,25 @@ use crate::select::distinct;
 use record::ClaimRow;
 
 /// The front.
-pub(crate) fn front(chapters: &[Chapter]) -> String {
-    let all = claims_by_outcome(chapters);
-    let claims: Vec<&ClaimRow> = all.iter().map(|(_, claim)| *claim).collect();
+pub(crate) fn front(chapters: &[Chapter], across: Option<&Across>) -> String {
+    let claims: Vec<&ClaimRow> = chapters.iter().flat_map(|c| &c.summary.claims).collect();
     let mut out = format!(
         "# Duhem\n\n{PAPER}\n\n{}\n\nThe same as one page: [index.html](index.html).\n",
         markdown(&count_of_claims(&claims))
     );
-    if !claims.is_empty() {
-        out.push_str("\n## Claims\n\nWhat does not hold comes first.\n\n");
+    let open = open_claims(chapters);
+    if !open.is_empty() {
+        put!(out, "\n## {OPEN}\n\n");
         out.push_str(
             "| verdict | the paper says | printed | ours | why |\n|---|---|---:|---:|---|\n",
         );
-        for (chapter, claim) in &all {
+        for (chapter, claim) in &open {
             out.push_str(&claim_row(chapter, claim));
         }
+    }
+    held(&mut out, chapters);
+    if let Some(across) = across {
+        solvers(&mut out, across);
     }
     out.push_str("\n## Experiments\n");
     for chapter in chapters {
@@ -49,25 +55,81 @@ fn claim_row(chapter: &Chapter, claim: &ClaimRow) -> String {
     if !holds(claim).is_empty() {
         put!(verdict, "<br>{}", holds(claim));
     }
-    let mut why = vec![prose::markdown(&claim.why)];
+    let (why, rest) = split_first(&claim.why);
+    format!(
+        "| {verdict} | {says} | {printed} | {ours} | {why} <details><summary>more</summary>{more}</details> |\n",
+        says = prose::markdown(&claim.says),
+        printed = markdown(&number::printed(claim.printed, claim.digits, &claim.unit)),
+        ours = markdown(&ours(claim)),
+        why = prose::markdown(&why),
+        more = more(chapter, claim, &rest).join("<br>"),
+    )
+}
+
+/// What is told of a claim on request.
+fn more(chapter: &Chapter, claim: &ClaimRow, why: &str) -> Vec<String> {
+    let mut all = vec![prose::markdown(why)];
+    all.push(format!("{} · {}", markdown(&claim.place), markdown(&claim.id)));
     if !claim.how.is_empty() {
-        why.push(format!("Decided by: {}", prose::markdown(&claim.how)));
+        all.push(format!("Decided by: {}", prose::markdown(&claim.how)));
     }
     if let Some(figure) = chapter.shown(claim) {
         let title = prose::markdown(&figure.row.title);
-        why.push(format!("[{title}]({}/{}.svg)", chapter.folder, figure.name));
+        all.push(format!("[{title}]({}/{}.svg)", chapter.folder, figure.name));
     }
-    why.push(code(&claim.code, "../"));
-    why.retain(|part| !part.is_empty());
-    format!(
-        "| {verdict} | {says}<br>{place}<br>{id} | {printed} | {ours} | {why} |\n",
-        says = prose::markdown(&claim.says),
-        place = markdown(&claim.place),
-        id = markdown(&claim.id),
-        printed = markdown(&number::printed(claim.printed, claim.digits, &claim.unit)),
-        ours = markdown(&ours(claim)),
-        why = why.join("<br>"),
-    )
+    all.push(code(&claim.code, "../"));
+    all.retain(|part| !part.is_empty());
+    all
+}
+
+/// What holds: a line each, by experiment, with all there is to say folded behind it.
+fn held(out: &mut String, chapters: &[Chapter]) {
+    if chapters.iter().all(|chapter| chapter.held_claims().is_empty()) {
+        return;
+    }
+    out.push_str("\n## What holds\n");
+    for chapter in chapters {
+        let claims = chapter.held_claims();
+        if claims.is_empty() {
+            continue;
+        }
+        let mut inside = String::new();
+        for claim in &claims {
+            let short = in_short(claim);
+            let short = if short.is_empty() { short } else { format!(" – {short}") };
+            let line = format!(
+                "{} {}{}",
+                sign(&claim.verdict),
+                prose::markdown_html(&claim.says),
+                prose::markdown_html(&short)
+            );
+            inside.push_str(&folded(&line, &more(chapter, claim, &claim.why).join("<br>\n")));
+        }
+        let title = prose::markdown_html(chapter.title());
+        let line = format!("{title}: {} hold", claims.len());
+        let open = if few_held(chapters) { " open" } else { "" };
+        put!(out, "\n<details{open}><summary>{line}</summary>\n{inside}\n</details>\n");
+    }
+}
+
+/// A line, and behind it what is Markdown again.
+fn folded(line: &str, inside: &str) -> String {
+    format!("\n<details><summary>{line}</summary>\n\n{}\n\n</details>\n", inside.trim())
+}
+
+/// The solvers across all experiments.
+fn solvers(out: &mut String, across: &Across) {
+    put!(out, "\n## {TITLE}\n");
+    across.text.iter().for_each(|text| out.push_str(&paragraphs(text)));
+    put!(out, "\n![{MAP}]({NAME}.svg)\n{}\n[Data]({NAME}.csv)\n", paragraphs(READS));
+    for table in &across.tables {
+        let inside = format!("{}\n{}", paragraphs(&table.reads), table.grid.markdown());
+        if table.folded {
+            out.push_str(&folded(&prose::markdown_html(&table.title), &inside));
+        } else {
+            put!(out, "\n### {}\n{inside}", prose::markdown(&table.title));
+        }
+    }
 }
 
 fn code(place: &str, up: &str) -> String {
@@ -93,11 +155,12 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
         for (key, text) in told {
             put!(out, "- {key}: {}\n", prose::markdown(&text));
         }
-        chapter.figures_of(&study.study).for_each(|figure| out.push_str(&picture(figure)));
+        pictures(&mut out, chapter.figures_of(&study.study));
     }
-    chapter.figures_of("").for_each(|figure| out.push_str(&picture(figure)));
+    pictures(&mut out, chapter.figures_of(""));
     if let Some(table) = grid::measures(summary) {
-        put!(out, "\n## Measured quantities\n\n{}", table.markdown());
+        let title = format!("Measured quantities: {}", table.rows.len());
+        out.push_str(&folded(&title, &table.markdown()));
     }
     for study in distinct(summary.cases.iter().map(|case| case.study.as_str())) {
         errors(&mut out, chapter, study);
@@ -113,22 +176,31 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
 }
 
 fn errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
-    let name = prose::markdown(chapter.heading_of(study));
+    let name = prose::markdown_html(chapter.heading_of(study));
     if let Some(table) = grid::orders(chapter.summary, study) {
-        put!(
-            out,
-            "\n## {name}: observed orders\n{}\n{}",
-            paragraphs(grid::ORDERS_READ),
-            table.markdown()
-        );
+        let inside = format!("{}\n{}", paragraphs(grid::ORDERS_READ), table.markdown());
+        out.push_str(&folded(&format!("{name}: observed orders"), &inside));
     }
     if let Some(table) = grid::best(chapter.summary, study) {
-        put!(
-            out,
-            "\n## {name}: errors\n{}\n{}\nEvery case: [cases.csv](cases.csv).\n",
-            paragraphs(grid::BEST_READ),
+        let inside = format!(
+            "{}\n{}\nEvery case: [cases.csv](cases.csv).",
+            paragraphs(&grid::best_read(chapter.summary, study)),
             table.markdown()
         );
+        out.push_str(&folded(&format!("{name}: errors"), &inside));
+    }
+}
+
+/// The figures of the model, then those of the solvers, folded.
+fn pictures(out: &mut String, [model, solvers]: [Vec<&Figure>; 2]) {
+    for figure in model {
+        out.push_str(&picture(figure));
+    }
+    if !solvers.is_empty() {
+        let names: Vec<String> =
+            solvers.iter().map(|figure| prose::markdown_html(&figure.row.title)).collect();
+        let inside: String = solvers.into_iter().map(picture).collect();
+        out.push_str(&folded(&names.join(" · "), &inside));
     }
 }
 
@@ -141,7 +213,7 @@ fn picture(figure: &Figure) -> String {
         description = markdown(&row.description),
         name = figure.name,
         caption = paragraphs(&row.caption),
-        reads = paragraphs(figure.reads),
+        reads = paragraphs(figure.kind.reads),
     )
 }
 

@@ -22,6 +22,11 @@ pub(crate) fn markdown(text: &str) -> String {
     })
 }
 
+/// As HTML inside Markdown, in one line: no markup of either is taken for ours.
+pub(crate) fn markdown_html(text: &str) -> String {
+    write(&escape::one_line(text), &mut escape::markdown_entities)
+}
+
 fn write(text: &str, escape: &mut dyn FnMut(&str) -> String) -> String {
     let mut out = String::new();
     for (element, piece) in pieces(text) {

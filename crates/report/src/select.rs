@@ -15,6 +15,13 @@ pub(crate) struct Selection<'a> {
     pub(crate) orders: Vec<&'a OrderRow>,
     /// The sweep points in the table's order; one empty name without a sweep.
     pub(crate) points: Vec<&'a str>,
+    /// What errors are errors of, as the study says it.
+    pub(crate) response: &'a str,
+}
+
+/// What the errors of this study are errors of, as `displacement q`; empty if it does not say.
+pub(crate) fn response<'a>(summary: &'a Summary, study: &str) -> &'a str {
+    summary.studies.iter().find(|row| row.study == study).map_or("", |row| &row.response)
 }
 
 /// The cases with this control that a figure's row asks for; any control if none is given.
@@ -41,7 +48,8 @@ pub(crate) fn select<'a>(
         .collect();
     let names = cases.iter().map(|case| case.point.as_str());
     let points = distinct(names.chain(orders.iter().map(|row| row.point.as_str())));
-    Selection { cases, orders, points }
+    let response = response(summary, &figure.study);
+    Selection { cases, orders, points, response }
 }
 
 impl Selection<'_> {

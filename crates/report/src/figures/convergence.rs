@@ -27,7 +27,7 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
 
 /// One panel for each sweep point and treatment of corners, errors against the controls' values.
 pub(super) fn charts(cases: &Selection, x: &Axis, against: &str, guides: &[Guide]) -> Vec<Chart> {
-    let y = error_axis(&cases.cases);
+    let y = error_axis(cases);
     let mut charts = Vec::new();
     for point in &cases.points {
         for corners in cases.corners() {
@@ -61,9 +61,14 @@ pub(super) fn title(point: &str, rest: &str) -> String {
 }
 
 /// The axis of largest errors: above ten times the answer there is nothing to compare.
-pub(super) fn error_axis(cases: &[&CaseRow]) -> Axis {
-    let errors = cases.iter().filter(|case| case.status == SOLVED).filter_map(|c| c.error_max);
-    Axis::decades("largest error, relative", errors.map(|e| e.clamp(1e-17, 10.0)))
+pub(super) fn error_axis(selection: &Selection) -> Axis {
+    let solved = selection.cases.iter().filter(|case| case.status == SOLVED);
+    let label = match selection.response {
+        "" => "largest error, relative".to_owned(),
+        response => format!("largest error of {response}, relative"),
+    };
+    let errors = solved.filter_map(|case| case.error_max);
+    Axis::decades(&label, errors.map(|e| e.clamp(1e-17, 10.0)))
 }
 
 /// A solver's solved cases as a line, the others as marks in the lane.

@@ -25,7 +25,11 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
         distinct(own.map(|row| row.series.as_str())).len()
     };
     let alone = panels.iter().map(|panel| in_panel(&panel)).all(|n| n < 2);
-    let size = if panels.len() == 1 { (640.0, 340.0) } else { (414.0, 260.0) };
+    let (size, columns) = match panels.len() {
+        1 => ((640.0, 340.0), 1),
+        _ if are_histories(&panels) => ((848.0, 170.0), 1),
+        _ => ((414.0, 260.0), 2),
+    };
     let chart = |panel: &&PanelRow| {
         let axis = |label: &str, from, to, log| {
             Axis { label: label.to_owned(), from, to, log, at: Vec::new() }.checked()
@@ -41,7 +45,15 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
             ..Chart::default()
         }
     };
-    of_charts(figure, panels.iter().map(chart).collect(), 2.min(panels.len()))
+    of_charts(figure, panels.iter().map(chart).collect(), columns)
+}
+
+/// Whether the panels show different quantities over one and the same time: they stand below one another.
+fn are_histories(panels: &[&PanelRow]) -> bool {
+    let over = |row: &PanelRow| (row.x.clone(), row.x_min, row.x_max, row.x_log);
+    let same = panels.windows(2).all(|pair| over(pair[0]) == over(pair[1]));
+    let quantities = distinct(panels.iter().map(|row| row.y.as_str()));
+    same && quantities.len() == panels.len()
 }
 
 /// The curves of one panel, each with the name of its series in the table.

@@ -18,6 +18,8 @@ pub struct FigureKind {
     pub name: &'static str,
     /// How to read it, said under every caption; empty if it needs no saying.
     pub reads: &'static str,
+    /// Whether it is about how the solvers work and not about the model: it stands folded in its chapter.
+    pub of_solvers: bool,
     /// Draws the figure of that row from the tables.
     pub draw: fn(&FigureRow, &Summary) -> Result<Drawing, ReportError>,
 }
@@ -27,36 +29,42 @@ pub const FIGURES: &[FigureKind] = &[
     FigureKind {
         name: "collapse",
         reads: "A line breaks where its solver failed; letters in the margin lane are the failed runs.",
+        of_solvers: false,
         draw: collapse::draw,
     },
     FigureKind {
         name: "convergence",
         reads: "The number behind a name is the observed order, and the triangles show slopes to compare with. \
                 Letters in the margin lane are failed runs.",
+        of_solvers: true,
         draw: convergence::draw,
     },
-    FigureKind { name: "curves", reads: "", draw: curves::draw },
+    FigureKind { name: "curves", reads: "", of_solvers: false, draw: curves::draw },
     FigureKind {
         name: "history",
         reads: "A letter in the margin lane stands where a run failed and its line ends.",
+        of_solvers: true,
         draw: curves::draw,
     },
-    FigureKind { name: "loop", reads: "", draw: curves::draw },
+    FigureKind { name: "loop", reads: "", of_solvers: false, draw: curves::draw },
     FigureKind {
         name: "orders",
         reads: "A mark left of the tick falls short of the declared order; the longer the bar, the more of it the corners cost.",
+        of_solvers: true,
         draw: orders::draw,
     },
     FigureKind {
         name: "tolerance",
         reads: "The number behind a name is the slope of the error against the tolerance: 1 is proportional. \
                 Letters in the margin lane are failed runs.",
+        of_solvers: true,
         draw: tolerance::draw,
     },
     FigureKind {
         name: "work_precision",
         reads: "Grey lines repeat the other panel of the row. \
                 Letters in the margin lane are failed runs, at the work they had spent.",
+        of_solvers: true,
         draw: work_precision::draw,
     },
 ];
@@ -91,11 +99,11 @@ pub struct Datum {
     pub note: String,
 }
 
-/// Draws the figure of this row, by its kind, and says how to read it.
+/// Draws the figure of this row, by its kind, and says what kind it is.
 pub(crate) fn draw(
     figure: &FigureRow,
     summary: &Summary,
-) -> Result<(Drawing, &'static str), ReportError> {
+) -> Result<(Drawing, &'static FigureKind), ReportError> {
     let kind = FIGURES.iter().find(|kind| kind.name == figure.kind);
     let kind = kind.ok_or_else(|| ReportError::UnknownKind {
         experiment: summary.name.clone(),
@@ -103,7 +111,7 @@ pub(crate) fn draw(
         kind: figure.kind.clone(),
         known: FIGURES.iter().map(|kind| kind.name).collect::<Vec<_>>().join(", "),
     })?;
-    Ok(((kind.draw)(figure, summary)?, kind.reads))
+    Ok(((kind.draw)(figure, summary)?, kind))
 }
 
 /// The error for what plotters says.
@@ -131,7 +139,7 @@ fn of_charts(
         return Err(incomplete(figure, "no case that it could show", "one or more"));
     }
     align(&mut charts, columns);
-    let panels = charts.iter().map(Chart::draw).collect::<Result<_, _>>().map_err(fault(figure))?;
+    let panels = small(figure, &mut charts)?;
     let same = |label: fn(&Chart) -> &str, otherwise: &str| {
         let first = label(&charts[0]);
         if charts.iter().all(|chart| label(chart) == first) { first } else { otherwise }.to_owned()
@@ -139,6 +147,25 @@ fn of_charts(
     let x = same(|chart| &chart.x.label, "x");
     let y = same(|chart| &chart.y.label, "y");
     Ok(Drawing { panels, columns, data: charts.iter().flat_map(values).collect(), x, y })
+}
+
+/// The most that the panels of one figure may take [bytes]; with its style and title a file stays below 150 kB.
+const MOST: usize = 140_000;
+
+/// The panels, their lines thinned until they are small enough: a long history can turn a thousand times.
+fn small(figure: &FigureRow, charts: &mut [Chart]) -> Result<Vec<Panel>, ReportError> {
+    for coarse in 0..=5 {
+        for chart in charts.iter_mut() {
+            chart.coarse = coarse;
+        }
+        let drawn = charts.iter().map(Chart::draw).collect::<Result<Vec<_>, _>>();
+        let panels = drawn.map_err(fault(figure))?;
+        if panels.iter().map(|panel| panel.body.len()).sum::<usize>() <= MOST {
+            return Ok(panels);
+        }
+    }
+    let expected = format!("at most {} kB, in fewer panels or series", MOST / 1000);
+    Err(incomplete(figure, "more lines than a picture can hold", &expected))
 }
 
 fn values(chart: &Chart) -> Vec<Datum> {

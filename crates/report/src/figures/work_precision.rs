@@ -17,7 +17,7 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
     cases.cases.retain(|case| case.corners == corners);
     let work = |case: &CaseRow| case.evaluations.max(1) as f64;
     let x = Axis::tight("evaluations", cases.cases.iter().map(|case| work(case)));
-    let y = error_axis(&cases.cases);
+    let y = error_axis(&cases);
     let mut controls = distinct(cases.cases.iter().map(|case| case.control.as_str()));
     controls.sort_by_key(|name| std::cmp::Reverse(*name));
     let mut charts = Vec::new();

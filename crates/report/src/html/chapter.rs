@@ -1,7 +1,7 @@
 //! One experiment: its physics, its figures, its tables.
 
 use super::paragraphs;
-use crate::chapter::{Chapter, Figure, heading, told};
+use crate::chapter::{Chapter, Figure, heading, split_first, told};
 use crate::escape::html;
 use crate::grid;
 use crate::number;
@@ -20,13 +20,20 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
     }
     out.push_str(&paragraphs(summary.about("text")));
     for study in &summary.studies {
-        write_study(out, study);
-        chapter.figures_of(&study.study).for_each(|figure| write_figure(out, chapter, figure));
+        write_study(out, chapter, study);
     }
-    chapter.figures_of("").for_each(|figure| write_figure(out, chapter, figure));
+    let [model, solvers] = chapter.figures_of("");
+    for figure in model {
+        write_figure(out, chapter, figure);
+    }
+    write_folded(out, chapter, &solvers);
     if let Some(table) = grid::measures(summary) {
-        out.push_str("<h3>Measured quantities</h3>\n");
-        out.push_str(&table.html("Measured quantities"));
+        put!(
+            out,
+            "<details><summary>Measured quantities: {}</summary>\n{}</details>\n",
+            table.rows.len(),
+            table.html("Measured quantities")
+        );
     }
     for study in distinct(summary.cases.iter().map(|case| case.study.as_str())) {
         write_errors(out, chapter, study);
@@ -34,14 +41,43 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
     out.push_str("</section>\n");
 }
 
-fn write_study(out: &mut String, study: &StudyRow) {
+/// A study: its first sentence and the figures of the model; one without figures stands folded as a whole.
+fn write_study(out: &mut String, chapter: &Chapter, study: &StudyRow) {
     let name = prose::html(heading(study));
-    put!(out, "<h3>{name}</h3>\n{}", paragraphs(&study.text));
+    let [model, solvers] = chapter.figures_of(&study.study);
+    let (first, rest) = if model.is_empty() {
+        (String::new(), study.text.clone())
+    } else {
+        split_first(&study.text)
+    };
+    if model.is_empty() {
+        put!(out, "<details><summary>{name}</summary>\n{}", paragraphs(&rest));
+    } else {
+        put!(out, "<h3>{name}</h3>\n{}", paragraphs(&first));
+        put!(out, "<details><summary>The study</summary>\n{}", paragraphs(&rest));
+    }
     out.push_str("<dl class=\"study\">");
     for (key, text) in told(study) {
         put!(out, "<dt>{key}<dd>{}", prose::html(&text));
     }
-    out.push_str("</dl>\n");
+    out.push_str("</dl>\n</details>\n");
+    for figure in model {
+        write_figure(out, chapter, figure);
+    }
+    write_folded(out, chapter, &solvers);
+}
+
+/// Figures of how the solvers did, folded.
+fn write_folded(out: &mut String, chapter: &Chapter, figures: &[&Figure]) {
+    if figures.is_empty() {
+        return;
+    }
+    let names: Vec<String> = figures.iter().map(|f| prose::html(&f.row.title)).collect();
+    put!(out, "<details class=\"figures\"><summary>{}</summary>\n", names.join(" · "));
+    for figure in figures {
+        write_figure(out, chapter, figure);
+    }
+    out.push_str("</details>\n");
 }
 
 fn write_figure(out: &mut String, chapter: &Chapter, figure: &Figure) {
@@ -59,16 +95,25 @@ fn write_figure(out: &mut String, chapter: &Chapter, figure: &Figure) {
     for (n, panel) in drawing.panels.iter().enumerate() {
         out.push_str(&inline(panel, &format!("{}-{n}", figure.id), &row.title));
     }
+    let (first, mut more) = split_first(&row.caption);
+    let reads = figure.kind.reads;
+    if !reads.is_empty() {
+        put!(more, " {reads}");
+    }
     put!(
         out,
-        "</div>\n<figcaption><b id=\"{id}-caption\">{title}</b> {caption}<span class=\"sr\"> {description}</span>\n\
-         <small>{reads} <a href=\"{folder}/{name}.svg\">SVG</a> · \
+        "</div>\n<figcaption><b id=\"{id}-caption\">{title}</b> {first}<span class=\"sr\"> {description}</span>\n\
+         {more}<small><a href=\"{folder}/{name}.svg\">SVG</a> · \
          <a href=\"{folder}/{name}.csv\">data</a></small></figcaption></figure>\n",
         id = figure.id,
         title = prose::html(&row.title),
-        caption = prose::html(&row.caption),
+        first = prose::html(&first),
         description = html(&row.description),
-        reads = html(figure.reads),
+        more = if more.trim().is_empty() {
+            String::new()
+        } else {
+            format!("<details><summary>More</summary><p>{}</p></details>", prose::html(more.trim()))
+        },
         folder = chapter.folder,
         name = figure.name
     );
@@ -78,10 +123,11 @@ fn write_errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
     let summary = chapter.summary;
     let heading = chapter.heading_of(study);
     let name = prose::html(heading);
+    put!(out, "<details><summary>{name}: orders, errors and every case</summary>\n");
     if let Some(table) = grid::orders(summary, study) {
         put!(
             out,
-            "<h3>{name}: observed orders</h3>\n<p>{}</p>\n{}",
+            "<p><b>Observed orders.</b> {}</p>\n{}",
             html(grid::ORDERS_READ),
             table.html(&format!("Observed orders of {heading}"))
         );
@@ -89,8 +135,8 @@ fn write_errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
     if let Some(table) = grid::best(summary, study) {
         put!(
             out,
-            "<h3>{name}: errors</h3>\n<p>{}</p>\n{}",
-            html(grid::BEST_READ),
+            "<p><b>Errors.</b> {}</p>\n{}",
+            html(&grid::best_read(summary, study)),
             table.html(&format!("Smallest errors of {heading}"))
         );
     }
@@ -102,7 +148,7 @@ fn write_errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
         let table = grid::cases(summary, study, point);
         put!(
             out,
-            "<details><summary>All {count} cases of {name}{}</summary>\n{}</details>\n",
+            "<details class=\"data\"><summary>All {count} cases of {name}{}</summary>\n{}</details>\n",
             html(&title),
             table.html(&format!("Cases of {heading}{title}"))
         );
@@ -111,5 +157,5 @@ fn write_errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
         put!(out, "<p><small>{}</small></p>\n", prose::html(&signs));
     }
     let folder = &chapter.folder;
-    put!(out, "<p><a href=\"{folder}/cases.csv\">All cases as CSV</a></p>\n");
+    put!(out, "<p><a href=\"{folder}/cases.csv\">All cases as CSV</a></p>\n</details>\n");
 }

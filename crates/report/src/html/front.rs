@@ -1,98 +1,178 @@
-//! The front: what holds, what does not, and every figure at a glance.
+//! The front: what does not hold, what does, and every figure at a glance.
 
-use super::code;
-use crate::chapter::{Chapter, PAPER, claims_by_outcome, count_of_claims, holds, ours, sign};
-use crate::escape::html;
+use super::{code, solvers};
+use crate::across::{Across, TITLE};
+use crate::chapter::{
+    Chapter, OPEN, PAPER, count_of_claims, few_held, holds, in_short, open_claims, ours, sign,
+    split_first,
+};
+use crate::escape::{html, slug};
 use crate::number;
 use crate::plot::thumbnail;
 use crate::prose;
 use record::ClaimRow;
 
 /// Writes the front.
-pub(super) fn write(out: &mut String, chapters: &[Chapter]) {
-    let all = claims_by_outcome(chapters);
-    let claims: Vec<&ClaimRow> = all.iter().map(|(_, claim)| *claim).collect();
+pub(super) fn write(out: &mut String, chapters: &[Chapter], across: Option<&Across>) {
+    let claims: Vec<&ClaimRow> = chapters.iter().flat_map(|c| &c.summary.claims).collect();
     put!(
         out,
         "<header>\n<h1>Duhem</h1>\n<p>{PAPER}</p>\n<p class=\"count\">{}</p>\n</header>\n",
         html(&count_of_claims(&claims))
     );
+    let open = open_claims(chapters);
+    let held = chapters.iter().any(|chapter| !chapter.held_claims().is_empty());
+    let drawn = chapters.iter().any(|chapter| !chapter.figures.is_empty());
     out.push_str("<nav aria-label=\"Contents\"><ol>\n");
-    if !claims.is_empty() {
-        out.push_str("<li><a href=\"#claims\">Claims</a>\n");
-    }
-    if chapters.iter().any(|chapter| !chapter.figures.is_empty()) {
-        out.push_str("<li><a href=\"#figures\">Figures</a>\n");
+    let parts = [
+        (!open.is_empty(), "claims", "What does not hold"),
+        (held, "held", "What holds"),
+        (across.is_some(), "solvers", TITLE),
+        (drawn, "figures", "Figures"),
+    ];
+    for (_, id, name) in parts.iter().filter(|(there, _, _)| *there) {
+        put!(out, "<li><a href=\"#{id}\">{name}</a>\n");
     }
     for chapter in chapters {
         let (id, title) = (&chapter.folder, html(chapter.title()));
         put!(out, "<li><a href=\"#{id}\">{title}</a>\n");
     }
     out.push_str("<li><a href=\"#made\">How it was made</a>\n</ol></nav>\n");
-    if !claims.is_empty() {
-        out.push_str(
-            "<section>\n<h2 id=\"claims\">Claims</h2>\n<p>What does not hold comes first.</p>\n<table class=\"claims\"><thead><tr>\
-             <th scope=\"col\">Verdict<th scope=\"col\">The paper says<th scope=\"col\">Printed\
-             <th scope=\"col\">Ours</thead>\n",
-        );
-        for (chapter, claim) in &all {
-            write_claim(out, chapter, claim);
-        }
-        out.push_str("</table>\n</section>\n");
+    write_open(out, &open);
+    if held {
+        write_held(out, chapters);
+    }
+    if let Some(across) = across {
+        solvers::write(out, across);
     }
     write_thumbnails(out, chapters);
 }
 
-fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
-    let class = match claim.verdict.as_str() {
+/// What does not hold, with the first sentence of the reason.
+fn write_open(out: &mut String, open: &[(&Chapter, &ClaimRow)]) {
+    if open.is_empty() {
+        return;
+    }
+    put!(
+        out,
+        "<section>\n<h2 id=\"claims\">{OPEN}</h2>\n<table class=\"claims\"><thead><tr>\
+         <th scope=\"col\">Verdict<th scope=\"col\">The paper says<th scope=\"col\">Printed\
+         <th scope=\"col\">Ours</thead>\n"
+    );
+    for (chapter, claim) in open {
+        write_claim(out, chapter, claim);
+    }
+    out.push_str("</table>\n</section>\n");
+}
+
+/// The style of a verdict.
+fn class(claim: &ClaimRow) -> &'static str {
+    match claim.verdict.as_str() {
         "reproduced" => "yes",
         "contradicted" => "no",
         "under-specified" => "open",
         _ => "soft",
-    };
+    }
+}
+
+fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
     let note = holds(claim);
     let note = if note.is_empty() { String::new() } else { format!("<small>{note}</small>") };
     let printed = number::printed(claim.printed, claim.digits, &claim.unit);
-    let mut more = Vec::new();
-    if !claim.how.is_empty() {
-        more.push(format!("Decided by: {}", prose::html(&claim.how)));
-    }
-    if let Some(figure) = chapter.shown(claim) {
-        more.push(format!("<a href=\"#{}\">{}</a>", figure.id, prose::html(&figure.row.title)));
-    }
-    if !claim.code.is_empty() {
-        more.push(code(&claim.code));
-    }
+    let (why, rest) = split_first(&claim.why);
     put!(
         out,
         "<tbody id=\"claim--{id}\"><tr><td rowspan=\"2\"><span class=\"verdict {class}\">\
          <b aria-hidden=\"true\">{sign}</b>{verdict}</span>{note}\
-         <td class=\"says\">{says}<small>{place} · {name}</small>\
-         <td data-label=\"Printed\" class=\"n\">{printed}<td data-label=\"Ours\" class=\"n\">{ours}\
-         <tr><td colspan=\"3\" class=\"why\"><p>{why}<small>{more}</small></tbody>\n",
-        id = crate::escape::slug(&claim.id),
+         <td class=\"says\">{says}<td data-label=\"Printed\" class=\"n\">{printed}\
+         <td data-label=\"Ours\" class=\"n\">{ours}\
+         <tr><td colspan=\"3\" class=\"why\"><p>{why}</p>{more}</tbody>\n",
+        id = slug(&claim.id),
+        class = class(claim),
         sign = sign(&claim.verdict),
         verdict = html(&claim.verdict),
         says = prose::html(&claim.says),
-        place = html(&claim.place),
-        name = html(&claim.id),
         printed = html(&printed),
         ours = html(&ours(claim)),
-        why = prose::html(&claim.why),
-        more = more.join(" · ")
+        why = prose::html(&why),
+        more = more(chapter, claim, &rest)
     );
+}
+
+/// What is told of a claim on request, folded.
+fn more(chapter: &Chapter, claim: &ClaimRow, why: &str) -> String {
+    format!("<details><summary>More</summary>{}</details>", told(chapter, claim, why))
+}
+
+fn told(chapter: &Chapter, claim: &ClaimRow, why: &str) -> String {
+    let mut lines = vec![format!("{} · {}", html(&claim.place), html(&claim.id))];
+    if !claim.how.is_empty() {
+        lines.push(format!("Decided by: {}", prose::html(&claim.how)));
+    }
+    if let Some(figure) = chapter.shown(claim) {
+        lines.push(format!("<a href=\"#{}\">{}</a>", figure.id, prose::html(&figure.row.title)));
+    }
+    if !claim.code.is_empty() {
+        lines.push(code(&claim.code));
+    }
+    format!("<p>{}<small>{}</small></p>", prose::html(why), lines.join("<br>"))
+}
+
+/// What holds: a line each, by experiment, with all there is to say folded behind it.
+fn write_held(out: &mut String, chapters: &[Chapter]) {
+    out.push_str("<section>\n<h2 id=\"held\">What holds</h2>\n");
+    let open = if few_held(chapters) { " open" } else { "" };
+    for chapter in chapters {
+        let held = chapter.held_claims();
+        if held.is_empty() {
+            continue;
+        }
+        put!(
+            out,
+            "<details{open}><summary>{}: {} hold</summary>\n",
+            html(chapter.title()),
+            held.len()
+        );
+        for claim in held {
+            let short = in_short(claim);
+            let short = match short.as_str() {
+                "" => String::new(),
+                short => format!(" <span class=\"n\">{}</span>", html(short)),
+            };
+            put!(
+                out,
+                "<details class=\"held\" id=\"claim--{id}\"><summary><span class=\"verdict {class}\">\
+                 <b title=\"{verdict}\">{sign}</b></span> {says}{short}</summary>{told}</details>\n",
+                id = slug(&claim.id),
+                class = class(claim),
+                verdict = html(&claim.verdict),
+                sign = sign(&claim.verdict),
+                says = prose::html(&claim.says),
+                told = told(chapter, claim, &claim.why)
+            );
+        }
+        out.push_str("</details>\n");
+    }
+    out.push_str("</section>\n");
 }
 
 fn write_thumbnails(out: &mut String, chapters: &[Chapter]) {
     if chapters.iter().all(|chapter| chapter.figures.is_empty()) {
         return;
     }
-    out.push_str("<section>\n<h2 id=\"figures\">Figures</h2>\n<ul class=\"thumbs\">\n");
-    for figure in chapters.iter().flat_map(|chapter| &chapter.figures) {
-        let drawing = &figure.drawing;
-        let small = thumbnail(&drawing.panels, drawing.columns, |n| format!("{}-{n}", figure.id));
-        let (id, title) = (&figure.id, prose::html(&figure.row.title));
-        put!(out, "<li><a href=\"#{id}\">{small}<span>{title}</span></a>\n");
+    out.push_str("<section>\n<h2 id=\"figures\">Figures</h2>\n");
+    for chapter in chapters.iter().filter(|chapter| !chapter.figures.is_empty()) {
+        put!(out, "<h3>{}</h3>\n<ul class=\"thumbs\">\n", html(chapter.title()));
+        for figure in &chapter.figures {
+            let drawing = &figure.drawing;
+            let part = |n| format!("{}-{n}", figure.id);
+            let small = thumbnail(&drawing.panels, drawing.columns, part);
+            // Long titles are read at the figures themselves.
+            let title = figure.row.title.split(": ").next().unwrap_or_default();
+            let (id, title) = (&figure.id, prose::html(title));
+            put!(out, "<li><a href=\"#{id}\">{small}<span>{title}</span></a>\n");
+        }
+        out.push_str("</ul>\n");
     }
-    out.push_str("</ul>\n</section>\n");
+    out.push_str("</section>\n");
 }

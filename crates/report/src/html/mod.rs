@@ -2,7 +2,9 @@
 
 mod chapter;
 mod front;
+mod solvers;
 
+use crate::across::Across;
 use crate::chapter::Chapter;
 use crate::escape::html;
 use crate::plot::CSS;
@@ -10,7 +12,7 @@ use crate::plot::CSS;
 const PAGE: &str = include_str!("page.css");
 
 /// The whole page.
-pub(crate) fn page(chapters: &[Chapter]) -> String {
+pub(crate) fn page(chapters: &[Chapter], across: Option<&Across>) -> String {
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
@@ -18,7 +20,7 @@ pub(crate) fn page(chapters: &[Chapter]) -> String {
          <title>Duhem: the claims, the figures and the solvers</title>\n\
          <style>\n{PAGE}{CSS}</style>\n</head>\n<body>\n<main>\n"
     );
-    front::write(&mut out, chapters);
+    front::write(&mut out, chapters, across);
     for chapter in chapters {
         chapter::write(&mut out, chapter);
     }
@@ -31,7 +33,7 @@ pub(crate) fn page(chapters: &[Chapter]) -> String {
 fn made(out: &mut String, chapters: &[Chapter]) {
     out.push_str("<section id=\"made\">\n<h2>How it was made</h2>\n");
     for chapter in chapters {
-        put!(out, "<h3>{}</h3>\n<dl class=\"made\">\n", html(chapter.title()));
+        put!(out, "<details><summary>{}</summary>\n<dl class=\"made\">\n", html(chapter.title()));
         let told = ["title", "paper", "text"];
         for row in chapter.summary.about.iter().filter(|row| !told.contains(&row.key.as_str())) {
             // A reason is a text, all else is to be copied.
@@ -42,7 +44,7 @@ fn made(out: &mut String, chapters: &[Chapter]) {
             };
             put!(out, "<dt>{}<dd>{value}\n", html(&row.key));
         }
-        out.push_str("</dl>\n");
+        out.push_str("</dl>\n</details>\n");
     }
     out.push_str("</section>\n");
 }

@@ -7,7 +7,7 @@ use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
 use plotters::element::{Circle, PathElement, Polygon, Rectangle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, IntoFont, TextStyle};
+use plotters::style::{Color, FontTransform, IntoFont, TextStyle};
 use std::fmt::Write;
 
 /// Units of the backend in one pixel: plotters' coordinates are whole numbers.
@@ -91,8 +91,23 @@ impl Canvas<'_> {
             Side::Middle => HPos::Center,
             Side::Left => HPos::Right,
         };
+        self.write(text, at, (h_pos, FontTransform::None), ink)
+    }
+
+    /// One line of text that begins at the place and runs upwards, its middle above it.
+    pub(crate) fn text_up(&self, text: &str, at: (f64, f64), ink: Ink) -> Result<(), Fault> {
+        self.write(text, at, (HPos::Left, FontTransform::Rotate270), ink)
+    }
+
+    fn write(
+        &self,
+        text: &str,
+        at: (f64, f64),
+        (h_pos, turn): (HPos, FontTransform),
+        ink: Ink,
+    ) -> Result<(), Fault> {
         let colour = ink.colour();
-        let style = TextStyle::from(("sans-serif", TEXT).into_font())
+        let style = TextStyle::from(("sans-serif", TEXT).into_font().transform(turn))
             .color(&colour)
             .pos(Pos::new(h_pos, VPos::Center));
         let line: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
@@ -148,10 +163,14 @@ fn ours(svg: &str) -> String {
                     Some("start") | None => String::new(),
                     Some(anchor) => format!(" text-anchor=\"{anchor}\""),
                 };
+                // plotters turns text about its place, in its own units.
+                let up = attribute(line, "transform").is_some_and(|t| t.starts_with("rotate(270"));
+                let turn =
+                    if up { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
                 let text = raised(lines.next().unwrap_or(""));
                 writeln!(
                     out,
-                    "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" dy=\".35em\"{anchor}>{text}</text>"
+                    "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" dy=\".35em\"{anchor}{turn}>{text}</text>"
                 )
             }
             _ => Ok(()),

@@ -54,6 +54,10 @@ pub(crate) struct Chart {
     pub(crate) ghosts: Vec<Vec<(f64, f64)>>,
     /// Room for names right of the plot [px] and lines below it, as [`align`] shares them.
     pub(crate) margin: (f64, usize),
+    /// Room for the ticks' labels left of the plot [px], where panels share it; else their own width.
+    pub(crate) left: f64,
+    /// How often the thinning of its lines is doubled.
+    pub(crate) coarse: u8,
 }
 
 /// The height of a line of labels [px].
@@ -73,12 +77,16 @@ pub(crate) fn align(charts: &mut [Chart], columns: usize) {
         chart.lines.iter().map(|line| labels::width(&line.label())).chain(lane)
     });
     let room = names.fold(0.0, f64::max).min(NAME) + 16.0 + SAMPLE;
+    // Panels that stand below one another share their left edge too, as histories over one time do.
+    let ticks = charts.iter().map(Chart::room_for_ticks).fold(0.0, f64::max);
+    let left = if columns == 1 { ticks } else { 0.0 };
     let tall = charts.iter().map(|c| (c.lines.len() + 1) as f64 * LABEL).fold(0.0, f64::max);
     for row in charts.chunks_mut(columns.max(1)) {
         let key = |chart: &Chart| lane::key(&chart.lane, chart.size.0 - INDENT).len();
         let lines = row.iter().map(key).max().unwrap_or(0);
         for chart in row {
             chart.margin = (room, lines);
+            chart.left = left;
             chart.size.1 = chart.size.1.max(tall);
         }
     }
@@ -146,10 +154,8 @@ struct Frame {
 
 impl Frame {
     fn new(chart: &Chart) -> Self {
-        let ticks = chart.y.ticks(6);
-        let widest =
-            ticks.iter().map(|(_, text)| labels::width(text)).fold(38.0, f64::max).min(80.0);
-        let (left, right) = (widest + 10.0, chart.size.0 - chart.margin.0);
+        let left = chart.left.max(chart.room_for_ticks());
+        let right = chart.size.0 - chart.margin.0;
         let lane = if chart.title.is_empty() { 24.0 } else { 44.0 };
         let top =
             lane + if chart.lane.is_empty() { 0.0 } else { ROW * chart.lane.len() as f64 + 5.0 };
@@ -171,6 +177,18 @@ impl Frame {
 }
 
 impl Chart {
+    /// The room the labels of the vertical axis take [px].
+    fn room_for_ticks(&self) -> f64 {
+        let ticks = self.y.ticks(6);
+        ticks.iter().map(|(_, text)| labels::width(text)).fold(38.0, f64::max).min(80.0) + 10.0
+    }
+
+    /// The visible pieces of a line.
+    fn pieces(&self, frame: &Frame, places: &[(f64, f64)]) -> Vec<Vec<(f64, f64)>> {
+        let (low, high) = ((frame.left, frame.top), (frame.right, frame.bottom));
+        thin::visible(places, (low, high), f64::from(1_u32 << self.coarse.min(16)))
+    }
+
     /// Draws the panel.
     pub(crate) fn draw(&self) -> Result<Panel, Fault> {
         let frame = Frame::new(self);
@@ -258,7 +276,7 @@ impl Chart {
     /// The line on which both axes have the same value.
     fn equal(&self, frame: &Frame) -> Vec<Vec<(f64, f64)>> {
         let line = [self.x.from, self.x.to].map(|end| frame.place((end, end)));
-        thin::visible(&line, (frame.left, frame.top), (frame.right, frame.bottom))
+        self.pieces(frame, &line)
     }
 
     /// One triangle beside the other, each falling by its slope over a factor of two.
@@ -283,10 +301,9 @@ impl Chart {
 
     fn draw_lines(&self, canvas: &Canvas, frame: &Frame) -> Result<(), Fault> {
         let mut ends = Vec::new();
-        let (low, high) = ((frame.left, frame.top), (frame.right, frame.bottom));
         for ghost in self.ghosts.iter().flat_map(|line| line.split(|p| !p.1.is_finite())) {
             let places: Vec<_> = ghost.iter().map(|p| frame.place(*p)).collect();
-            for piece in thin::visible(&places, low, high) {
+            for piece in self.pieces(frame, &places) {
                 canvas.line(&piece, Ink::Ghost)?;
             }
         }
@@ -295,7 +312,7 @@ impl Chart {
             // A value that is not there breaks the line.
             for run in line.points.split(|p| !p.0.is_finite() || !p.1.is_finite()) {
                 let run: Vec<_> = run.iter().map(|p| frame.place(*p)).collect();
-                for piece in thin::visible(&run, low, high) {
+                for piece in self.pieces(frame, &run) {
                     canvas.line(&piece, Ink::Line(line.look))?;
                 }
                 places.extend(run);

@@ -124,6 +124,8 @@ pub(crate) enum Ink {
     Hollow(Look),
     /// Text in a series' colour.
     Label(Look),
+    /// A cell of a map, 0 for the best to 3.
+    Shade(u8),
 }
 
 impl Ink {
@@ -145,6 +147,7 @@ impl Ink {
             Self::Ghost => (13, 0, 0),
             Self::Letter(look) => (14, look.colour, 0),
             Self::Label(look) => (12, look.colour, 0),
+            Self::Shade(shade) => (15 + shade.min(3), 0, 0),
         };
         RGBColor(role, colour, dash)
     }
@@ -152,8 +155,10 @@ impl Ink {
 
 /// The classes a colour of [`Ink::colour`] stands for.
 pub(crate) fn classes((role, colour, dash): (u8, u8, u8)) -> String {
-    const ROLES: [&str; 15] =
-        ["mk", "bn", "gr", "ax", "gu", "ld", "tx", "mu", "ti", "l", "f", "o", "t", "gh", "t lt"];
+    const ROLES: [&str; 19] = [
+        "mk", "bn", "gr", "ax", "gu", "ld", "tx", "mu", "ti", "l", "f", "o", "t", "gh", "t lt",
+        "h0", "h1", "h2", "h3",
+    ];
     let role = ROLES.get(usize::from(role)).copied().unwrap_or("tx");
     match (colour, dash) {
         (0, _) => role.to_owned(),

@@ -3,8 +3,10 @@
 type Place = (f64, f64);
 
 /// The lines that are left of a series inside a box, thinned to what a screen can show.
-pub(crate) fn visible(series: &[Place], low: Place, high: Place) -> Vec<Vec<Place>> {
-    clip(&min_max(series, 1.0), low, high).into_iter().map(|line| straighten(&line, 0.07)).collect()
+/// `grain` is 1 for what the eye can see, and more where that is too much to keep.
+pub(crate) fn visible(series: &[Place], ends: (Place, Place), grain: f64) -> Vec<Vec<Place>> {
+    let lines = clip(&min_max(series, grain), ends.0, ends.1);
+    lines.into_iter().map(|line| straighten(&line, 0.07 * grain)).collect()
 }
 
 /// Of every run of places in one column of this width: the first, the lowest, the highest, the last, in their order.
@@ -121,7 +123,7 @@ mod tests {
     #[test]
     fn a_line_is_cut_at_the_box_and_straight_parts_lose_their_middle() {
         let line = [(-1.0, 0.5), (0.5, 0.5), (0.7, 0.5), (0.9, 0.5), (0.9, 5.0), (0.95, 0.1)];
-        let cut = visible(&line, (0.0, 0.0), (1.0, 1.0));
+        let cut = visible(&line, ((0.0, 0.0), (1.0, 1.0)), 1.0);
         assert!(cut.iter().flatten().all(|p| (0.0..=1.0).contains(&p.0) && p.1 <= 1.0), "{cut:?}");
         assert_eq!(straighten(&line[..4], 0.01), [(-1.0, 0.5), (0.9, 0.5)]);
     }
