@@ -13,6 +13,8 @@ use record::{CurveRow, PanelRow};
 const PER_ARC: u32 = 100;
 /// Stretches of time that a plant's curve is cut into.
 const STRETCHES: u32 = 600;
+/// The share of an axis below which nobody sees a difference.
+const SEEN: f64 = 2e-3;
 /// Periods after which a loop is the limit cycle to more digits than a figure shows.
 const SETTLED: f64 = 40.0;
 
@@ -103,13 +105,17 @@ fn plants(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series,
             Some("drive") => view.drive(t),
             _ => t,
         };
+        let visible = SEEN * (panel.y_range[1] - panel.y_range[0]).abs();
         let mut drawn = Vec::new();
         for i in 0..STRETCHES {
-            drawn.push((x(at(i)), y(at(i))));
+            let (t, next) = (at(i), at(i + 1));
+            drawn.push((x(t), y(t)));
             if panel.show.ends_with("-time") {
-                drawn.extend(
-                    view.ends((at(i), at(i + 1)), &y).map(|y| (0.5 * (at(i) + at(i + 1)), y)),
-                );
+                let ends = view.ends((t, next), &y);
+                let beyond = |end: &f64| (end - y(t)).abs().min((end - y(next)).abs()) > visible;
+                if ends.iter().any(beyond) {
+                    drawn.extend(ends.map(|y| (0.5 * (t + next), y)));
+                }
             }
         }
         drawn.push((x(to), y(to)));

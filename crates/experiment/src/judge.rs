@@ -61,6 +61,7 @@ fn judge(plan: &Plan, claim: &Claim, measures: &[MeasureRow]) -> Result<ClaimRow
                 printed.unit
             );
         }
+        Decision::Nothing => "nothing here can decide it".clone_into(&mut row.how),
         Decision::Check(check, subject) => {
             let found: Checked =
                 (check.run)(plan, subject).map_err(|e| format!("claim `{}`: {e}", written.id))?;

@@ -276,6 +276,62 @@ reference = "dahl"
         }
     }
 
+    const PLANT: &str = r#"
+title = "t"
+paper = "p"
+text = "x"
+[[study]]
+name = "s"
+title = "t"
+model = { name = "dahl", f_c = 0.75, sigma = 1.5, gamma = 1.0 }
+plant = { kind = "mass-spring", mass = 1.0, stiffness = 1.5 }
+input = { shape = "sine", amplitude = 1.0, omega = 0.1 }
+span = 10.0
+solvers = ["dopri5"]
+rtol = [1e-3]
+corners = ["ignore"]
+reference = "dahl"
+"#;
+
+    #[test]
+    fn the_plant_and_the_span_of_a_case_are_in_its_key() {
+        let mut keys = BTreeSet::from([of(PLANT)]);
+        for (from, to) in [
+            ("mass = 1.0", "mass = 2.0"),
+            ("stiffness = 1.5", "stiffness = 1.6"),
+            ("span = 10.0", "span = 11.0"),
+            ("span = 10.0", "periods = 1"),
+            ("reference", "initial = [0.1, 0.0, 0.0]\nreference"),
+        ] {
+            let text = PLANT.replacen(from, to, 1);
+            assert_ne!(text, PLANT, "no `{from}` to change");
+            assert!(keys.insert(of(&text)), "`{to}` has the key of another case");
+        }
+    }
+
+    #[test]
+    fn what_a_plant_cannot_be_is_said_with_its_key() {
+        for (from, to, key) in [
+            ("\"mass-spring\"", "\"mas-spring\"", "study[0].plant.kind"),
+            ("mass = 1.0", "mass = -1.0", "study[0].plant.mass"),
+            ("mass = 1.0", "mas = 1.0", "study[0].plant.mas"),
+            (", stiffness = 1.5", "", "study[0].plant.stiffness"),
+            ("span = 10.0", "span = -1.0", "study[0].span"),
+            ("span = 10.0", "span = 10.0\nperiods = 1", "study[0].span"),
+            ("span = 10.0", "", "study[0].periods"),
+            ("span = 10.0", "span = 10.0\nsweep = { mas = [1.0] }", "study[0].sweep.mas"),
+            ("span = 10.0", "span = 10.0\nsweep = { mass = [1.0] }", "study[0].sweep.mass"),
+            ("span = 10.0", "span = 10.0\ninitial = [0.0]", "study[0].initial"),
+            ("reference = \"dahl\"", "reference = \"dal\"", "study[0].reference"),
+        ] {
+            let text = PLANT.replacen(from, to, 1);
+            assert_ne!(text, PLANT, "no `{from}` to change");
+            let refused = Plan::from_text("t", Path::new("t.toml"), &text, &[]);
+            let message = refused.map(|_| ()).expect_err(to).to_string();
+            assert!(message.contains(&format!("{key}: ")), "`{to}`: {message}");
+        }
+    }
+
     #[test]
     fn names_and_texts_are_not_in_the_key() {
         for (from, to) in [

@@ -2,6 +2,7 @@
 
 mod dahl;
 mod energy;
+mod plant;
 mod table1;
 
 use crate::plan::{Plan, Subject};
@@ -48,6 +49,14 @@ pub const CHECKS: &[Check] = &[
     dahl::EQUATION_14,
     dahl::FINITE_SATURATION,
     energy::ORIENTATION,
+    plant::SETTLES_AT_F_C,
+    plant::STAIRCASE,
+    plant::SAME_SLIP,
+    plant::TOGETHER,
+    plant::WITHIN_AXES,
+    plant::PRESTRESSED,
+    plant::EQUIVALENT,
+    plant::RESTS,
     table1::DUHEM_TYPE,
     table1::RATE,
     table1::CONTINUITY,

@@ -51,6 +51,8 @@ pub enum Decision {
     Measure(usize),
     /// A check of a sentence.
     Check(&'static Check, Subject),
+    /// Nothing: it is an impression, or what it needs was never published.
+    Nothing,
 }
 
 /// One sentence of the paper to judge.
@@ -231,13 +233,16 @@ fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result
             told(check, &subject, &studies[subject.study]).map_err(|c| c.under("check"))?;
             Decision::Check(check, subject)
         }
+        (None, None) if written.qualitative || written.under_specified.is_some() => {
+            Decision::Nothing
+        }
         _ => return Err(Complaint::new("", "both or neither", "a `measure` or a `check`")),
     };
     match (&decision, &written.printed) {
         (Decision::Measure(index), Some(number)) => {
             printed(number, &measures[*index]).map_err(|c| c.under("printed"))?;
         }
-        (Decision::Check(..), None) => {}
+        (Decision::Check(..) | Decision::Nothing, None) => {}
         _ => {
             let expected = "a printed number with a `measure`, none with a `check`";
             return Err(Complaint::new("printed", "this", expected));

@@ -6,7 +6,7 @@ mod plant;
 mod quasi_static;
 mod rig;
 
-pub(crate) use path::View;
+pub(crate) use path::{RINGING, View};
 
 use crate::plan::{Plan, Study, Subject, angular};
 
@@ -91,6 +91,7 @@ pub const QUANTITIES: &[Quantity] = &[
     plant::SLIP_FORCE_DROP,
     plant::STICK_DRIVE,
     plant::FULL_SLIPS,
+    plant::REST_SHARE,
     quasi_static::Q_MAX,
     quasi_static::AREA,
     quasi_static::FIRST_PEAK,

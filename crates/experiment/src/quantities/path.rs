@@ -98,17 +98,13 @@ impl<'a> View<'a> {
 
     /// The smallest and the largest value of a function of time on a stretch, at its nodes and its ends; in
     /// the order in which they come.
-    pub(crate) fn ends(
-        &self,
-        span: (f64, f64),
-        of: &dyn Fn(f64) -> f64,
-    ) -> std::vec::IntoIter<f64> {
+    pub(crate) fn ends(&self, span: (f64, f64), of: &dyn Fn(f64) -> f64) -> [f64; 2] {
         let grid = self.grid(span);
         let values: Vec<f64> = grid.iter().map(|t| of(*t)).collect();
         let by = |a: &usize, b: &usize| values[*a].total_cmp(&values[*b]);
         let low = (0..values.len()).min_by(by).unwrap_or(0);
         let high = (0..values.len()).max_by(by).unwrap_or(0);
-        vec![values[low.min(high)], values[low.max(high)]].into_iter()
+        [values[low.min(high)], values[low.max(high)]]
     }
 
     /// The time of the reversal of this number, from 1.
@@ -166,6 +162,18 @@ impl<'a> View<'a> {
         found.ok_or_else(|| format!("there are {} slips, not {number}", slips.len()))
     }
 
+    /// The share of the second half of the run in which the speed is below `share` of its largest there.
+    pub(crate) fn rest_share(&self, share: f64) -> f64 {
+        /// The times at which it is looked at.
+        const LOOKS: u32 = 20_000;
+        let half = 0.5 * self.end();
+        let speeds =
+            (0..=LOOKS).map(|i| self.v(half * (1.0 + f64::from(i) / f64::from(LOOKS))).abs());
+        let speeds: Vec<f64> = speeds.collect();
+        let largest = speeds.iter().copied().fold(0.0, f64::max);
+        speeds.iter().filter(|v| **v < share * largest).count() as f64 / f64::from(LOOKS + 1)
+    }
+
     /// How often the motion turns while every element slips: all deflections at their deadbands.
     pub(crate) fn full_slips(&self) -> Result<f64, String> {
         let delta = self.motion.model().scale();
@@ -203,4 +211,72 @@ fn golden((mut low, mut high): (f64, f64), of: &dyn Fn(f64) -> f64) -> f64 {
         if of(a) < of(b) { low = a } else { high = b }
     }
     of(0.5 * (low + high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Slip, View};
+    use duhem::{Input, MODELS, Parameters, Plant};
+    use simulation::{DrivenPlant, Path};
+    use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+    /// A Coulomb contact on a spring under 2 sin(0.5 t) N.
+    fn plant() -> DrivenPlant {
+        let entry = MODELS.iter().find(|m| m.name == "coulomb").unwrap();
+        let model = (entry.build)(&Parameters::from_iter([("f_c", 0.5)])).unwrap();
+        let input = Input::sine(2.0, 0.5).unwrap();
+        DrivenPlant::new(model, Plant::mass_spring(1.0, 1.0), input, (0.0, TAU))
+    }
+
+    /// q = a sin t, with nodes where no extreme is.
+    fn sine(a: f64) -> Path {
+        let mut path = Path::new(2);
+        for i in 0..=700 {
+            let t = TAU * f64::from(i) / 700.0;
+            path.push(t, &[a * t.sin(), a * t.cos()], &[a * t.cos(), -a * t.sin()]);
+        }
+        path
+    }
+
+    #[test]
+    fn extremes_turns_and_work_of_a_sine_are_found() {
+        let (path, motion) = (sine(3.0), plant());
+        let view = View::new(&path, &motion, None);
+        assert!((view.extreme_q(f64::max) - 3.0).abs() < 1e-12);
+        assert!((view.extreme_q(f64::min) + 3.0).abs() < 1e-12);
+        assert!((view.extreme_v((1.0, 5.0), -1.0) + 3.0).abs() < 1e-9);
+        assert!((view.extreme_v((1.0, 2.0), 1.0) - 3.0 * 1.0_f64.cos()).abs() < 1e-9);
+        assert!((view.turn(1.0).unwrap() - FRAC_PI_2).abs() < 1e-9, "{:?}", view.turn(1.0));
+        assert!((view.turn(2.0).unwrap() - 3.0 * FRAC_PI_2).abs() < 1e-9);
+        assert!(view.turn(3.0).is_err() && view.turn(0.0).is_err());
+        // ∫ 2 sin(t/2) 3 cos t dt over (0, 2π) = −8.
+        assert!((view.work((0.0, TAU)) + 8.0).abs() < 1e-9, "{}", view.work((0.0, TAU)));
+        assert!((view.extreme_f((0.1, 1.0), 1.0) - 0.5).abs() < 1e-15);
+        assert!((view.drive(PI) - 2.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_slip_begins_where_the_speed_rises_through_v_s_and_ends_at_the_next_turn() {
+        let (path, motion) = (sine(1.0), plant());
+        let view = View::new(&path, &motion, Some(0.5));
+        // |cos t| rises through 1/2 at 2π/3 and 5π/3; the second time there is no turn after it.
+        let slips = view.slips().unwrap();
+        assert_eq!(slips.len(), 1, "{slips:?}");
+        let Slip { onset, stop } = slips[0];
+        assert!((onset - TAU / 3.0).abs() < 1e-9 && (stop - 3.0 * FRAC_PI_2).abs() < 1e-9);
+        assert!(
+            View::new(&path, &motion, None).slips().is_err(),
+            "without v_S nothing tells a slip"
+        );
+        // |cos t| is below 1/2 for a third of the time.
+        assert!((view.rest_share(0.5) - 1.0 / 3.0).abs() < 1e-3, "{}", view.rest_share(0.5));
+    }
+
+    #[test]
+    fn a_stretch_shows_its_smallest_and_largest_value_in_their_order() {
+        let (path, motion) = (sine(1.0), plant());
+        let view = View::new(&path, &motion, None);
+        let [first, second] = view.ends((0.0, PI), &|t| view.v(t));
+        assert!((first - 1.0).abs() < 1e-12 && (second + 1.0).abs() < 1e-12);
+    }
 }

@@ -213,6 +213,15 @@ quantity!(
     |plan, subject| exact(both(plan, subject, |view| view.full_slips()))
 );
 
+quantity!(
+    REST_SHARE,
+    "rest_share",
+    "1",
+    "share of the second half of the run in which the speed is below 1 % of its largest there",
+    &[],
+    |plan, subject| both(plan, subject, |view| Ok(view.rest_share(0.01)))
+);
+
 fn study<'a>(plan: &'a Plan, subject: &Subject) -> (&'a Study, usize) {
     (&plan.studies[subject.study], subject.points.first().copied().unwrap_or(0))
 }
