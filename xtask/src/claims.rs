@@ -11,7 +11,7 @@ use std::{fmt::Write, path::Path};
 /// Prints the ledger of all experiments that have been run.
 pub(crate) fn claims(root: &Path, as_json: bool) -> Result<Exit, Failure> {
     let summaries = committed(root, &root.join("reports"))?;
-    print(&summaries, as_json);
+    print(&summaries, as_json, screen::claims);
     Ok(Exit::Done)
 }
 
@@ -21,12 +21,20 @@ pub(crate) fn markdown(root: &Path) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// The claims as a Markdown table, each linked to its place in the report.
+/// The ledger's summary in Markdown: each experiment's count, and what is not simply reproduced, each linked
+/// to its place in the report.
 pub(crate) fn table(summaries: &[Summary]) -> String {
-    let mut text =
-        "| claim | the paper | printed | ours | verdict |\n|---|---|---|---|---|\n".to_owned();
+    let kinds = ["reproduced", "contradicted", "under-specified", "qualitative"];
+    let mut text = format!("| experiment | {} |\n|---|---:|---:|---:|---:|\n", kinds.join(" | "));
     for summary in summaries {
-        for row in &summary.claims {
+        let count = |kind: &&str| summary.claims.iter().filter(|c| c.verdict == **kind).count();
+        let counts: Vec<String> = kinds.iter().map(|kind| count(kind).to_string()).collect();
+        let name = &summary.name;
+        let _ = writeln!(text, "| [{name}](reports/{name}/README.md) | {} |", counts.join(" | "));
+    }
+    text += "\n| claim | the paper | printed | ours | verdict |\n|---|---|---|---|---|\n";
+    for summary in summaries {
+        for row in summary.claims.iter().filter(|row| row.verdict != "reproduced") {
             let says = row.says.replace('|', "\\|");
             let [printed, ours] = screen::numbers(row).unwrap_or_default();
             let id = format!("[`{}`](reports/{}/README.md)", row.id, summary.name);
@@ -52,12 +60,12 @@ pub(crate) fn committed_one(reports: &Path, name: &str) -> Result<Option<Summary
     Ok(there.then(|| Summary::read(&folder)).transpose()?)
 }
 
-/// Prints claims and measures as JSON, or the claims as one screen.
-pub(crate) fn print(summaries: &[Summary], as_json: bool) {
+/// Prints claims and measures as JSON, or the claims in words.
+pub(crate) fn print(summaries: &[Summary], as_json: bool, words: fn(&[Summary]) -> Vec<String>) {
     if as_json {
         output::line(&format!("{:#}", ledger(summaries)));
     } else {
-        for line in screen::claims(summaries) {
+        for line in words(summaries) {
             output::line(&line);
         }
     }

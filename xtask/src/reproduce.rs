@@ -6,7 +6,7 @@ use crate::{
     exit::{Exit, Failure},
     list, output,
     progress::Line,
-    root,
+    root, screen,
 };
 use experiment::{Drift, Finished, Options, Plan, WATCHDOG, Why, drift, run, summary};
 use record::{Store, Summary, write_whole};
@@ -55,7 +55,7 @@ pub(crate) fn reproduce(root: &Path, arguments: &ReproduceArgs) -> Result<Exit, 
         return Ok(verdict(&moved, given_up, arguments.json));
     }
     write(root, &reports, &found)?;
-    claims::print(&found, arguments.json);
+    claims::print(&found, arguments.json, screen::short);
     if given_up > 0 {
         output::error(&format!(
             "{given_up} cases gave no answer and were given up by the watchdog"

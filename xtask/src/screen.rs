@@ -13,16 +13,37 @@ pub(crate) fn claims(summaries: &[Summary]) -> Vec<String> {
     let rows: Vec<&ClaimRow> = summaries.iter().flat_map(|s| &s.claims).collect();
     let width = rows.iter().map(|r| r.id.len()).max().unwrap_or(0);
     let mut lines: Vec<String> = rows.iter().map(|row| claim(row, width, colours)).collect();
+    lines.push(counts(&rows));
+    lines
+}
+
+/// The same in one screen: the claims that are not simply reproduced, and each experiment's count.
+pub(crate) fn short(summaries: &[Summary]) -> Vec<String> {
+    let colours = stdout().is_terminal() && env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+    let all = || summaries.iter().flat_map(|s| &s.claims);
+    let open: Vec<&ClaimRow> = all().filter(|row| row.verdict != "reproduced").collect();
+    let width = open.iter().map(|r| r.id.len()).max().unwrap_or(0);
+    let mut lines: Vec<String> = open.iter().map(|row| claim(row, width, colours)).collect();
+    if summaries.len() > 1 {
+        let of =
+            |s: &Summary| format!("{}: {}", s.name, counts(&s.claims.iter().collect::<Vec<_>>()));
+        lines.extend(summaries.iter().map(of));
+    }
+    lines.push(counts(&all().collect::<Vec<_>>()));
+    lines
+}
+
+/// How many claims there are of each verdict.
+pub(crate) fn counts(rows: &[&ClaimRow]) -> String {
     let count = |verdict: &str| rows.iter().filter(|r| r.verdict == verdict).count();
-    lines.push(format!(
+    format!(
         "{} claims: {} reproduced, {} contradicted, {} under-specified, {} qualitative",
         rows.len(),
         count("reproduced"),
         count("contradicted"),
         count("under-specified"),
         count("qualitative")
-    ));
-    lines
+    )
 }
 
 fn claim(row: &ClaimRow, width: usize, colours: bool) -> String {
