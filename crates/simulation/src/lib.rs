@@ -5,14 +5,17 @@
 //! here they meet for the first time.
 //!
 //! Read first: [`Motion`], what a solver is run on and judged in; [`PrescribedMotion`] and
-//! [`DrivenPlant`], the two of them; [`Path`], a plant's motion once solved.
+//! [`DrivenPlant`], the two of them; [`Path`], a plant's motion once solved. Then [`PlantReference`], by which
+//! the solvers of a plant are judged.
 
 mod driven;
 mod motion;
 mod path;
+pub mod plant_reference;
 mod prescribed;
 
 pub use driven::DrivenPlant;
 pub use motion::Motion;
 pub use path::Path;
+pub use plant_reference::{PLANT_REFERENCES, PlantReference, PlantReferenceEntry};
 pub use prescribed::PrescribedMotion;
