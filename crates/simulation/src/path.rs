@@ -116,6 +116,28 @@ impl Path {
         rises.map(|i| self.crossing(i - 1, |v| v.abs() < speed)).collect()
     }
 
+    /// Where `of`, a function of the time [s], is largest between `from` and `to`, and how large: the best
+    /// node, refined by golden section between its neighbours. None if no node lies there.
+    pub fn largest(&self, (from, to): (f64, f64), of: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
+        let first = self.t.partition_point(|t| *t < from);
+        let last = self.t.partition_point(|t| *t <= to);
+        let nodes = self.t.get(first..last)?;
+        let best =
+            nodes.iter().map(|t| (*t, of(*t))).reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+        let mut low = self.t[self.t.partition_point(|t| *t < best.0).saturating_sub(1)].max(from);
+        let after = self.t.partition_point(|t| *t <= best.0);
+        let mut high = self.t.get(after).map_or(to, |t| t.min(to));
+        let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+        // Twenty narrowings leave 1e-4 of the interval, and 1e-8 of the height above its ends.
+        for _ in 0..20 {
+            let (a, b) = (high - golden * (high - low), low + golden * (high - low));
+            if of(a) > of(b) { high = b } else { low = a }
+        }
+        let middle = 0.5 * (low + high);
+        let refined = (middle, of(middle));
+        Some(if refined.1 > best.1 { refined } else { best })
+    }
+
     /// The time between nodes `i` and `i + 1` at which v is zero [s].
     fn root(&self, i: usize) -> f64 {
         let negative = self.node(i)[1] < 0.0;

@@ -4,7 +4,7 @@ use duhem::{
     Dahl, Input, LuGre, Parameters, Plant, Rig,
     closed_form::{Reference, ReferenceError},
 };
-use integrate::{Control, Corners, Limits, Outcome, solve, solver};
+use integrate::{Control, Corners, Dynamics, Limits, Outcome, solve, solver};
 use simulation::{
     DrivenPlant, Motion, PLANT_REFERENCES, Path, PlantReference,
     plant_reference::{along, solve_located},
@@ -140,6 +140,68 @@ fn a_mass_turns_where_the_energy_is_spent_however_heavy_it_is() {
         let turn = located.path.reversals()[0];
         let error = (located.path.q(turn) - expected).abs();
         assert!(error < 1e-10, "{mass} kg turns {error:e} m off {expected} m");
+    }
+}
+
+/// Numbers in [0, 1) from a seed: splitmix64.
+struct Draws(u64);
+
+impl Draws {
+    fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Between two positive numbers, every decade as likely as the next.
+    fn decades(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.number())
+    }
+}
+
+/// LuGre on a mass on a spring, over five decades of stiffness and four of mass, driven by a sine, a
+/// triangle or a constant force.
+fn drawn(seed: u64) -> DrivenPlant {
+    let mut draws = Draws(seed);
+    let (f_c, mass) = (draws.decades(0.3, 3.0), draws.decades(1e-3, 10.0));
+    let sigma_0 = draws.decades(1e2, 1e6);
+    let model = LuGre {
+        f_c,
+        f_s: f_c * (1.0 + draws.number()),
+        v_s: draws.decades(1e-4, 0.1),
+        sigma_0,
+        sigma_1: 2.0 * draws.number() * (sigma_0 * mass).sqrt(),
+        sigma_2: draws.number(),
+    };
+    let (omega, amplitude) = (draws.decades(0.05, 20.0), f_c * draws.decades(0.3, 5.0));
+    let input = match seed % 3 {
+        0 => Input::sine(amplitude, omega),
+        1 => Input::triangle(amplitude, omega),
+        _ => Input::sampled(vec![0.0, 1.0], vec![amplitude; 2]),
+    };
+    let plant = Plant::mass_spring(mass, draws.decades(0.01, 100.0));
+    DrivenPlant::new(Box::new(model), plant, input.expect("an input"), (0.0, 30.0 / omega))
+}
+
+#[test]
+fn plants_drawn_at_random_are_the_same_by_two_ways() {
+    for seed in 0..30 {
+        let motion = drawn(seed);
+        let y0 = [1e-3 * motion.scale()[0], 0.0, 0.0];
+        let located = solve_located(&motion, &y0, 1e-10);
+        assert_eq!(located.outcome, Outcome::Solved, "seed {seed}");
+        let control = Control::Tolerance { rtol: 1e-12 };
+        let limits = Limits { evaluations: 20_000_000 };
+        let bdf = solver("bdf").unwrap();
+        let run = solve(bdf, &motion.problem(y0.to_vec()), &control, Corners::Restart, &limits);
+        assert_eq!(run.outcome, Outcome::Solved, "seed {seed}");
+        let (t, path) = (located.path.t().to_vec(), located.path);
+        let size = t.iter().map(|t| path.q(*t).abs()).fold(0.0, f64::max);
+        let both = PlantReference::new(path, along(&motion, &run.trajectory), ["radau", "bdf"]);
+        let apart = both.error_bound() / size;
+        assert!(apart < 1e-7, "seed {seed}: {apart:e} of the motion apart");
     }
 }
 
