@@ -33,7 +33,7 @@ pub mod plant;
 pub mod slopes;
 
 pub use form::{Continuity, DuhemForm, DuhemType};
-pub use input::{Input, InputError};
+pub use input::{Harmonic, Input, InputError};
 pub use models::{Coulomb, Dahl, FrictionModel, LuGre, MODELS, MaxwellSlip, ModelEntry};
 pub use parameters::{Parameter, ParameterError, Parameters};
 pub use plant::{PLANTS, Plant, PlantEntry, Rig};

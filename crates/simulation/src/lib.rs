@@ -8,13 +8,17 @@
 //! [`DrivenPlant`], the two of them; [`Path`], a plant's motion once solved. Then [`PlantReference`], by which
 //! the solvers of a plant are judged.
 
+pub mod displacement;
 mod driven;
+mod error;
+pub mod exact;
 mod motion;
 mod path;
 pub mod plant_reference;
 mod prescribed;
 
 pub use driven::DrivenPlant;
+pub use error::SimulationError;
 pub use motion::Motion;
 pub use path::Path;
 pub use plant_reference::{PLANT_REFERENCES, PlantReference, PlantReferenceEntry};

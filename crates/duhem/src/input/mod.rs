@@ -1,11 +1,13 @@
 //! The inputs: the displacement u(t) that is imposed on a model, and where it turns.
 
 mod error;
+mod harmonic;
 mod polyline;
 mod sequence;
 mod wave;
 
 pub use error::InputError;
+pub use harmonic::Harmonic;
 
 use polyline::Polyline;
 use sequence::Sequence;

@@ -1,7 +1,10 @@
 //! Periodic inputs: sine, offset cosine, triangle.
 
-use super::error::{InputError, positive};
-use std::f64::consts::{PI, TAU};
+use super::{
+    Harmonic,
+    error::{InputError, positive},
+};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Kind {
@@ -26,6 +29,18 @@ impl Wave {
             amplitude: positive("amplitude", amplitude, "a positive, finite amplitude [m]")?,
             omega: positive("omega", omega, "a positive, finite angular frequency [rad/s]")?,
         })
+    }
+
+    /// The wave as one sine; a triangle is none.
+    pub(super) fn harmonic(&self) -> Option<Harmonic> {
+        let (amplitude, omega) = (self.amplitude, self.omega);
+        match self.kind {
+            Kind::Sine => Some(Harmonic { amplitude, omega, phase: 0.0, constant: 0.0 }),
+            Kind::CosineOffset => {
+                Some(Harmonic { amplitude, omega, phase: FRAC_PI_2, constant: -amplitude })
+            }
+            Kind::Triangle => None,
+        }
     }
 
     pub(super) fn u(&self, t: f64) -> f64 {

@@ -6,7 +6,9 @@
 //! `ln_1p`, so that it passes through γ = 1 (and the work through γ = 2) without losing a digit.
 
 mod corollary;
+pub mod quasi_static;
 mod settled;
+pub mod settling;
 mod trajectory;
 mod work;
 
