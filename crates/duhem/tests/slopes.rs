@@ -22,7 +22,7 @@ fn every_model() -> Vec<(String, Box<dyn FrictionModel>)> {
     for entry in MODELS {
         for gamma in [0.0, 0.25, 1.0, 2.0] {
             let parameters = entry.keys.iter().map(|key| (*key, value(key, gamma)));
-            let model = (entry.build)(&parameters.collect()).unwrap();
+            let model = (entry.build)(&parameters.collect()).expect("the parameters of the test");
             models.push((format!("{} with gamma = {gamma}", entry.name), model));
         }
     }

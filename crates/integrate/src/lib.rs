@@ -15,6 +15,7 @@ mod faulty;
 mod libraries;
 mod newton;
 mod problem;
+mod radau;
 mod run;
 mod segment;
 mod solve;
@@ -22,6 +23,7 @@ mod solvers;
 
 pub use faulty::FAULTY;
 pub use problem::{Control, Corners, Dynamics, Grid, InitialValueProblem, Limits};
+pub use radau::{Integration, Node, Settings, System, radau};
 pub use run::{Failure, Outcome, Run, Trajectory, Work};
 pub use segment::{Recorder, Segment};
 pub use solve::{solve, solving};

@@ -5,7 +5,8 @@
 //! here they meet for the first time.
 //!
 //! Read first: [`Motion`], what a solver is run on and judged in; [`PrescribedMotion`] and
-//! [`DrivenPlant`], the two of them; [`Path`], a plant's motion once solved.
+//! [`DrivenPlant`], the two of them; [`Path`], a plant's motion once solved. Then [`PlantReference`], by which
+//! the solvers of a plant are judged.
 
 pub mod displacement;
 mod driven;
@@ -13,6 +14,7 @@ mod error;
 pub mod exact;
 mod motion;
 mod path;
+pub mod plant_reference;
 mod prescribed;
 mod reference;
 
@@ -20,5 +22,6 @@ pub use driven::DrivenPlant;
 pub use error::SimulationError;
 pub use motion::Motion;
 pub use path::Path;
+pub use plant_reference::{PLANT_REFERENCES, PlantReference, PlantReferenceEntry};
 pub use prescribed::PrescribedMotion;
 pub use reference::{PLANT_REFERENCES, PlantReference, PlantReferenceEntry};

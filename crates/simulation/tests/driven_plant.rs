@@ -5,7 +5,7 @@ use integrate::{Control, Corners, Dynamics, Limits, Outcome, solve, solver};
 use simulation::{DrivenPlant, Motion};
 
 fn model(name: &str) -> Box<dyn FrictionModel> {
-    let entry = MODELS.iter().find(|entry| entry.name == name).unwrap();
+    let entry = MODELS.iter().find(|entry| entry.name == name).expect("a model of the list");
     let value = |key: &str| -> Parameter {
         match key {
             "f_s" => 1.5.into(),
@@ -20,11 +20,12 @@ fn model(name: &str) -> Box<dyn FrictionModel> {
             other => panic!("no value for a new key {other}: give it one here"),
         }
     };
-    (entry.build)(&entry.keys.iter().map(|key| (*key, value(key))).collect()).unwrap()
+    (entry.build)(&entry.keys.iter().map(|key| (*key, value(key))).collect())
+        .expect("its parameters")
 }
 
 fn driven(name: &str) -> DrivenPlant {
-    let input = Input::sine(10.0, 0.001).unwrap();
+    let input = Input::sine(10.0, 0.001).expect("a sine");
     DrivenPlant::new(model(name), Plant::mass_spring(0.8, 2.0), input, (0.0, 7000.0))
 }
 

@@ -14,22 +14,19 @@ fn sine(h: f64, count: u32) -> Path {
 }
 
 fn worst(path: &Path, error: impl Fn(f64) -> f64) -> f64 {
-    let end = path.end().unwrap().0;
+    let end = path.end().expect("a path with nodes").0;
     (0..=997).map(|k| error(end * f64::from(k) / 997.0).abs()).fold(0.0, f64::max)
 }
 
 #[test]
 fn displacement_is_of_sixth_order_and_the_rest_of_fourth() {
-    let errors = [0.2, 0.1].map(|h| {
-        let path = sine(h, (4.0 / h) as u32);
-        let mut y = [0.0; 3];
+    let errors = [(0.2, 20), (0.1, 40)].map(|(h, count)| {
+        let path = sine(h, count);
         let x = worst(&path, |t| {
-            path.state(t, &mut y.clone());
-            let mut at = y;
-            path.state(t, &mut at);
-            at[2] - (2.0 * t).cos()
+            let mut y = [0.0; 3];
+            path.state(t, &mut y);
+            y[2] - (2.0 * t).cos()
         });
-        y.fill(0.0);
         [
             worst(&path, |t| path.q(t) - t.sin()),
             worst(&path, |t| path.v(t) - t.cos()),
@@ -94,4 +91,28 @@ fn starting_from_rest_and_touching_it_are_no_reversals() {
         path.push(t, &[0.0, v], &[v, 0.0]);
     }
     assert_eq!(path.reversals(), [4.5]);
+}
+
+#[test]
+fn onsets_are_where_the_speed_rises_through_a_threshold() {
+    // |cos t| = 1/2 at π/3 falling, 2π/3 rising, 4π/3 falling and 5π/3 rising.
+    let onsets = sine(0.01, 620).onsets(0.5);
+    let expected = [2.0, 5.0].map(|k| k * std::f64::consts::PI / 3.0);
+    assert_eq!(onsets.len(), 2);
+    for (onset, expected) in onsets.iter().zip(expected) {
+        assert!((onset - expected).abs() < 1e-10, "{onset} s, not {expected} s");
+    }
+}
+
+#[test]
+fn the_largest_value_lies_between_the_nodes() {
+    let path = sine(0.1, 60);
+    let (t, q) = path.largest((0.0, 6.0), |t| path.q(t)).unwrap();
+    assert!(
+        (t - std::f64::consts::FRAC_PI_2).abs() < 1e-4 && (q - 1.0).abs() < 1e-9,
+        "{q} m at {t} s"
+    );
+    let (t, q) = path.largest((2.0, 4.0), |t| path.q(t)).unwrap();
+    assert!(t == 2.0 && q == path.q(2.0), "at the edge of the span, not {t} s");
+    assert_eq!(path.largest((7.0, 8.0), |t| path.q(t)), None);
 }

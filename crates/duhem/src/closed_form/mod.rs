@@ -58,6 +58,16 @@ pub enum ReferenceError {
         /// How many it may have.
         most: f64,
     },
+    /// One of the ways to the answer does not get to the end.
+    #[error("{way} stops at t = {at} s: {why}")]
+    Unanswered {
+        /// Which way.
+        way: String,
+        /// How far it gets [s].
+        at: f64,
+        /// What stops it.
+        why: String,
+    },
     /// The time span is empty or not finite.
     #[error("span = [{start}, {end}] s: expected a finite start before a finite end")]
     Span {
@@ -76,11 +86,7 @@ pub const REFERENCES: &[ReferenceEntry] = &[
 ];
 
 /// Refuses an initial state or a span no answer can start from.
-pub(crate) fn check(
-    x0: &[f64],
-    states: usize,
-    (start, end): (f64, f64),
-) -> Result<(), ReferenceError> {
+pub fn check(x0: &[f64], states: usize, (start, end): (f64, f64)) -> Result<(), ReferenceError> {
     if x0.len() != states || x0.iter().any(|x| !x.is_finite()) {
         return Err(ReferenceError::InitialState { found: x0.to_vec(), expected: states });
     }

@@ -4,5 +4,6 @@ mod common;
 mod corners;
 mod failures;
 mod order;
+mod radau;
 mod versions;
 mod work;
