@@ -1,7 +1,7 @@
 //! The two ways to the motion of a plant agree, and with what can be known without either.
 
 use duhem::{
-    Dahl, Input, LuGre, Parameters, Plant, Rig,
+    Dahl, Input, LuGre, Parameter, Parameters, Plant, Rig,
     closed_form::{Reference, ReferenceError},
 };
 use integrate::{Control, Corners, Dynamics, Limits, Outcome, solve, solver};
@@ -106,6 +106,24 @@ fn dahl_friction_on_spring_and_rig_is_the_same_by_two_ways() {
     let figure_18 = [("f_c", 0.84), ("sigma", 7.5), ("gamma", 1.0)];
     let current = Input::sine(0.05, 0.2 * std::f64::consts::PI).unwrap();
     agree(&reference("dahl", &figure_18, &Rig::PAPER.plant(), &current, 50.0));
+}
+
+#[test]
+fn the_rig_with_maxwell_slip_is_the_same_by_two_ways() {
+    let delta = [1.5, 2.4, 3.3, 4.2, 5.1, 6.0, 6.9, 7.8, 8.7, 9.6].map(|d| d * 1e-3).to_vec();
+    let k = vec![2.60, 4.68, 6.76, 8.84, 10.92, 13.0, 15.08, 17.16, 19.24, 21.32];
+    let model: Parameters =
+        [("k", Parameter::List(k)), ("delta", delta.into())].into_iter().collect();
+    let current = Input::sine(0.05, 0.2 * std::f64::consts::PI).unwrap();
+    let entry = PLANT_REFERENCES.iter().find(|entry| entry.name == "maxwell-slip").unwrap();
+    let figure_22 = (entry.build)(&model, &Rig::PAPER.plant(), &current, &[0.0; 12], (0.0, 50.0));
+    let figure_22 = figure_22.unwrap();
+    agree(&figure_22);
+    let late = figure_22.reversal_difference();
+    assert!(late.is_some_and(|late| late < 1e-6), "reversals are {late:?} s apart");
+    let triangle = Input::triangle(0.05, 1.0).unwrap();
+    let refused = (entry.build)(&model, &Rig::PAPER.plant(), &triangle, &[0.0; 12], (0.0, 50.0));
+    assert!(matches!(refused, Err(ReferenceError::Unanswered { .. })), "a triangle has corners");
 }
 
 /// The first turning point under a constant force from rest at 0: where the work of the force is that
@@ -268,6 +286,10 @@ fn an_answer_that_cannot_be_had_is_refused_in_words() {
         Err(ReferenceError::InitialState { expected: 3, .. })
     ));
     assert!(matches!(build(&[0.0; 3], (1.0, 1.0)), Err(ReferenceError::Span { .. })));
+    let sharp: Parameters = [("f_c", 0.75), ("sigma", 7.5), ("gamma", 0.5)].into_iter().collect();
+    let error =
+        (dahl.build)(&sharp, &plant, &input, &[0.0; 3], (0.0, 1.0)).unwrap_err().to_string();
+    assert!(error.contains("γ = 0.5") && error.contains("t = 0 s"), "{error}");
     let bad: Parameters = [("f_c", -0.75)].into_iter().collect();
     let wrong = (dahl.build)(&bad, &plant, &input, &[0.0; 3], (0.0, 1.0));
     assert!(matches!(wrong, Err(ReferenceError::Parameters(_))));

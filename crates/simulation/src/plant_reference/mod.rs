@@ -1,27 +1,15 @@
 //! What the runs of a plant are judged by, where no closed form is: two independent ways to solve it.
 
+mod entries;
 mod library;
 mod located;
 
+pub use entries::{PLANT_REFERENCES, PlantReferenceEntry};
 pub use library::along;
 pub use located::{Located, solve_located};
 
-use crate::{DrivenPlant, Path};
-use duhem::{
-    Input, MODELS, Parameters, Plant,
-    closed_form::{Reference, ReferenceError, check},
-};
-use integrate::{Dynamics, Outcome};
-
-/// Relative tolerance of our stiff method. At 1e-11 the staircase of Figure 14 is right to 1e-9 m over
-/// 7000 s: ten times less moves q by 3e-10 m, and an explicit method of order 5 agrees to 3e-10 m.
-const LOCATED: f64 = 1e-11;
-
-/// Relative tolerance of the library's method. With LuGre the staircase by `bdf` then is 1e-8 m off; at
-/// ten times less rounding doubles the steps and the rig's motion gets no better. With Dahl the mass of
-/// Figure 13 rings undamped for 14 500 s, and the phase is what is lost: 7e-9 m by `dopri5`, 2e-7 m by
-/// `bdf`.
-const LIBRARY: f64 = 1e-13;
+use crate::Path;
+use duhem::closed_form::Reference;
 
 /// A plant solved in two independent ways: the first is the answer, their difference its error.
 #[derive(Debug, Clone)]
@@ -88,89 +76,5 @@ impl Reference for PlantReference {
     /// The reversals.
     fn kinks(&self) -> Vec<f64> {
         self.reversals.clone()
-    }
-}
-
-/// One reference of the list.
-#[derive(Debug, Clone, Copy)]
-pub struct PlantReferenceEntry {
-    /// The friction model's name.
-    pub name: &'static str,
-    /// The two ways, in words.
-    pub ways: [&'static str; 2],
-    /// The answer for a model of these parameters on this plant under this input, from the state
-    /// (q, v, x) and over the span [s].
-    pub build: fn(
-        &Parameters,
-        &Plant,
-        &Input,
-        &[f64],
-        (f64, f64),
-    ) -> Result<PlantReference, ReferenceError>,
-}
-
-const LOCATED_WAY: &str = "Radau IIA of order 5, every reversal located";
-const BDF_WAY: &str = "backward differentiation, diffsol's bdf";
-const DOPRI5_WAY: &str = "explicit Runge-Kutta of order 5, ode_solvers' dopri5";
-
-/// The references.
-pub const PLANT_REFERENCES: &[PlantReferenceEntry] = &[
-    PlantReferenceEntry {
-        name: "dahl",
-        ways: [LOCATED_WAY, DOPRI5_WAY],
-        build: |model, plant, input, y0, span| {
-            let motion = driven("dahl", model, plant, input, span)?;
-            solved_twice(&motion, y0, ("dopri5", DOPRI5_WAY))
-        },
-    },
-    PlantReferenceEntry {
-        name: "lugre",
-        ways: [LOCATED_WAY, BDF_WAY],
-        build: |model, plant, input, y0, span| {
-            let motion = driven("lugre", model, plant, input, span)?;
-            solved_twice(&motion, y0, ("bdf", BDF_WAY))
-        },
-    },
-];
-
-/// The plant with the model of this name.
-fn driven(
-    name: &str,
-    parameters: &Parameters,
-    plant: &Plant,
-    input: &Input,
-    span: (f64, f64),
-) -> Result<DrivenPlant, ReferenceError> {
-    check(&[], 0, span)?;
-    let entry = MODELS.iter().find(|entry| entry.name == name);
-    let unknown = || ReferenceError::Unanswered {
-        way: name.to_owned(),
-        at: span.0,
-        why: "is no model of the list".to_owned(),
-    };
-    let model = (entry.ok_or_else(unknown)?.build)(parameters)?;
-    Ok(DrivenPlant::new(model, *plant, input.clone(), span))
-}
-
-/// By our stiff method and by a library's, which is not told where the reversals are.
-fn solved_twice(
-    motion: &DrivenPlant,
-    y0: &[f64],
-    (solver, way): (&str, &'static str),
-) -> Result<PlantReference, ReferenceError> {
-    check(y0, motion.dimension(), motion.span())?;
-    let located = solve_located(motion, y0, LOCATED);
-    answered(LOCATED_WAY, located.outcome)?;
-    let (second, outcome) = library::solve_by(solver, motion, y0, LIBRARY);
-    answered(way, outcome)?;
-    Ok(PlantReference::new(located.path, second, [LOCATED_WAY, way]))
-}
-
-fn answered(way: &str, outcome: Outcome) -> Result<(), ReferenceError> {
-    match outcome {
-        Outcome::Solved => Ok(()),
-        Outcome::Failed { at, why } => {
-            Err(ReferenceError::Unanswered { way: way.to_owned(), at, why: why.to_string() })
-        }
     }
 }
