@@ -16,7 +16,6 @@ mod motion;
 mod path;
 pub mod plant_reference;
 mod prescribed;
-mod reference;
 
 pub use driven::DrivenPlant;
 pub use error::SimulationError;
@@ -24,4 +23,3 @@ pub use motion::Motion;
 pub use path::Path;
 pub use plant_reference::{PLANT_REFERENCES, PlantReference, PlantReferenceEntry};
 pub use prescribed::PrescribedMotion;
-pub use reference::{PLANT_REFERENCES, PlantReference, PlantReferenceEntry};
