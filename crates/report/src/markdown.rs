@@ -57,8 +57,9 @@ fn claim_row(chapter: &Chapter, claim: &ClaimRow) -> String {
     }
     let (why, rest) = split_first(&claim.why);
     format!(
-        "| {verdict} | {says} | {printed} | {ours} | {why} <details><summary>more</summary>{more}</details> |\n",
+        "| {verdict} | {says}<br>{place} | {printed} | {ours} | {why} <details><summary>more</summary>{more}</details> |\n",
         says = prose::markdown(&claim.says),
+        place = markdown(&claim.place),
         printed = markdown(&number::printed(claim.printed, claim.digits, &claim.unit)),
         ours = markdown(&ours(claim)),
         why = prose::markdown(&why),
@@ -200,7 +201,7 @@ fn pictures(out: &mut String, [model, solvers]: [Vec<&Figure>; 2]) {
         let names: Vec<String> =
             solvers.iter().map(|figure| prose::markdown_html(&figure.row.title)).collect();
         let inside: String = solvers.into_iter().map(picture).collect();
-        out.push_str(&folded(&names.join(" · "), &inside));
+        out.push_str(&folded(&format!("Solvers: {}", names.join(" · ")), &inside));
     }
 }
 

@@ -174,6 +174,10 @@ pub(super) fn matrix(problems: &[&Problem], solvers: &[&str], title: &str) -> Ta
         let run = cells.iter().any(|cell| cell != NONE);
         run.then(|| std::iter::once((*solver).to_owned()).chain(cells).collect())
     };
+    let named = |study: &&str| {
+        let budget = problems.iter().find(|p| p.study == *study).map_or(0, |p| p.budget);
+        format!("{study}\nbudget {}", number::count(budget))
+    };
     let head = std::iter::once("solver".to_owned());
     Table {
         title: format!("Solver by study: {title}"),
@@ -182,7 +186,7 @@ pub(super) fn matrix(problems: &[&Problem], solvers: &[&str], title: &str) -> Ta
                 after ⚠ the silent failures, gross + missed by three digits."
             .to_owned(),
         grid: Grid {
-            head: head.chain(studies.iter().map(|study| (*study).to_owned())).collect(),
+            head: head.chain(studies.iter().map(named)).collect(),
             rows: solvers.iter().filter_map(row).collect(),
             class: "across",
             words: 1,

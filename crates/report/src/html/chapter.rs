@@ -35,8 +35,13 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
             table.html("Measured quantities")
         );
     }
-    for study in distinct(summary.cases.iter().map(|case| case.study.as_str())) {
-        write_errors(out, chapter, study);
+    let studies = distinct(summary.cases.iter().map(|case| case.study.as_str()));
+    if !studies.is_empty() {
+        out.push_str("<details><summary>Orders, errors and every case</summary>\n");
+        for study in studies {
+            write_errors(out, chapter, study);
+        }
+        out.push_str("</details>\n");
     }
     out.push_str("</section>\n");
 }
@@ -73,7 +78,7 @@ fn write_folded(out: &mut String, chapter: &Chapter, figures: &[&Figure]) {
         return;
     }
     let names: Vec<String> = figures.iter().map(|f| prose::html(&f.row.title)).collect();
-    put!(out, "<details class=\"figures\"><summary>{}</summary>\n", names.join(" · "));
+    put!(out, "<details class=\"figures\"><summary>Solvers: {}</summary>\n", names.join(" · "));
     for figure in figures {
         write_figure(out, chapter, figure);
     }
@@ -123,7 +128,7 @@ fn write_errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
     let summary = chapter.summary;
     let heading = chapter.heading_of(study);
     let name = prose::html(heading);
-    put!(out, "<details><summary>{name}: orders, errors and every case</summary>\n");
+    put!(out, "<details><summary>{name}</summary>\n");
     if let Some(table) = grid::orders(summary, study) {
         put!(
             out,

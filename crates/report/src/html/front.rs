@@ -84,7 +84,7 @@ fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
         out,
         "<tbody id=\"claim--{id}\"><tr><td rowspan=\"2\"><span class=\"verdict {class}\">\
          <b aria-hidden=\"true\">{sign}</b>{verdict}</span>{note}\
-         <td class=\"says\">{says}<td data-label=\"Printed\" class=\"n\">{printed}\
+         <td class=\"says\">{says}<small>{place}</small><td data-label=\"Printed\" class=\"n\">{printed}\
          <td data-label=\"Ours\" class=\"n\">{ours}\
          <tr><td colspan=\"3\" class=\"why\"><p>{why}</p>{more}</tbody>\n",
         id = slug(&claim.id),
@@ -92,6 +92,7 @@ fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
         sign = sign(&claim.verdict),
         verdict = html(&claim.verdict),
         says = prose::html(&claim.says),
+        place = html(&claim.place),
         printed = html(&printed),
         ours = html(&ours(claim)),
         why = prose::html(&why),
