@@ -133,9 +133,9 @@ impl Across {
         let mut tables = vec![tables::solvers(&problems, &solvers)];
         tables.extend(tables::lies(&problems));
         tables.push(cheapest::table(&problems));
-        for (chapter, title) in titles.iter().enumerate() {
+        for chapter in 0..chapters.len() {
             let own: Vec<&Problem> = problems.iter().filter(|p| p.chapter == chapter).collect();
-            tables.extend((!own.is_empty()).then(|| tables::matrix(&own, &solvers, title)));
+            tables.extend((!own.is_empty()).then(|| tables::matrix(&own, &solvers)));
         }
         let budgets = problems.iter().map(|problem| problem.budget);
         let text = text(&problems, solvers.len(), budgets);
