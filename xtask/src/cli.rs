@@ -56,6 +56,9 @@ pub(crate) enum Command {
         /// As JSON.
         #[arg(long)]
         json: bool,
+        /// Print the index of equations for the README and check nothing.
+        #[arg(long, conflicts_with = "json")]
+        equations: bool,
     },
 }
 

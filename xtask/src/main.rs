@@ -42,7 +42,8 @@ fn run(cli: &Cli) -> Result<Exit, Failure> {
         Command::Claims { markdown: true, .. } => claims::markdown(&root),
         Command::Claims { json, .. } => claims::claims(&root, *json),
         Command::New { what } => new::new(&root, what),
-        Command::Tidy { json } => tidy::tidy(&root, *json),
+        Command::Tidy { equations: true, .. } => tidy::equations(&root),
+        Command::Tidy { json, .. } => tidy::tidy(&root, *json),
     }
 }
 

@@ -57,6 +57,57 @@ fn add(path: &Path, text: &str) {
     fs::write(path, new).expect("a file");
 }
 
+fn replace(path: &Path, old: &str, new: &str) {
+    let text = fs::read_to_string(path).expect("a file");
+    assert!(text.contains(old), "no `{old}` in {}", path.display());
+    fs::write(path, text.replace(old, new)).expect("a file");
+}
+
+/// The plants' equations, if they are not there yet: with them the index of equations is asked for.
+fn plants(root: &Path) {
+    let index = || {
+        let root = root.to_str().expect("a path");
+        let ran = Command::new(env!("CARGO_BIN_EXE_xtask"))
+            .args(["--root", root, "tidy", "--equations"])
+            .output()
+            .expect("the built program");
+        assert!(ran.status.success(), "{ran:?}");
+        String::from_utf8(ran.stdout).expect("text")
+    };
+    let known = index();
+    let line = |n: u32| format!("/// a = b   ({n})\npub fn plant_{n}() {{}}\n");
+    let missing = (27..=41).filter(|n| !known.contains(&format!("| ({n}) |")));
+    let new = missing.map(line).collect::<Vec<_>>().concat();
+    fs::write(root.join("crates/duhem/src/more.rs"), new).expect("a file");
+    let readme = root.join("README.md");
+    if !fs::read_to_string(&readme).expect("README").contains(&known) {
+        add(&readme, &index());
+    }
+}
+
+#[test]
+fn an_index_of_equations_that_is_not_the_sources_or_not_whole_is_told() {
+    let lost = |root: &Path, number: u32| {
+        plants(root);
+        let file = root.join("crates/duhem/src/models/maxwell_slip.rs");
+        let text = fs::read_to_string(&file).expect("a file");
+        let end = format!("({number})");
+        let kept = text.lines().filter(|line| !line.ends_with(&end)).collect::<Vec<_>>();
+        assert!(kept.len() < text.lines().count(), "no equation {number}");
+        fs::write(&file, kept.join("\n")).expect("a file");
+    };
+    with(|root| lost(root, 24), "equation (24) has neither a function nor an alias");
+    with(|root| lost(root, 26), "its index of equations is not what");
+    let other = |root: &Path| {
+        plants(root);
+        replace(&root.join("README.md"), "| (25) |", "| (5) |");
+    };
+    with(other, "README.md: its index of equations is not what");
+    let nameless = |root: &Path| add(&root.join("crates/duhem/src/lib.rs"), "/// F = 1   (43)\n");
+    with(nameless, "equation (43) stands above no function");
+    with(nameless, "(43) is no equation of the paper");
+}
+
 #[test]
 fn a_breach_of_each_rule_is_told() {
     let file =
@@ -86,6 +137,11 @@ fn a_breach_of_each_rule_is_told() {
     with(
         |root| fs::write(root.join("README.md"), "").expect("README"),
         "does not stand in its first",
+    );
+    let picture = "](reports/dahl-gamma-sweep/collapse.svg)";
+    with(
+        |root| replace(&root.join("README.md"), picture, "](x)"),
+        "no picture of dahl-gamma-sweep",
     );
     with(|root| fs::remove_file(root.join("LICENSE-MIT")).expect("MIT"), "LICENSE-MIT: is missing");
 }

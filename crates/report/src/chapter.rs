@@ -236,12 +236,21 @@ pub(crate) fn holds(claim: &ClaimRow) -> &'static str {
     }
 }
 
-/// Our number of a claim with its error.
+/// Our number against a printed one, with its error.
 pub(crate) fn ours(claim: &ClaimRow) -> String {
-    claim.ours.map_or_else(
-        || number::NONE.to_owned(),
-        |value| number::with_error(value, claim.error, &claim.unit),
-    )
+    match (claim.printed, claim.ours) {
+        (Some(_), Some(value)) => number::with_error(value, claim.error, &claim.unit),
+        _ => number::NONE.to_owned(),
+    }
+}
+
+/// How a claim was decided; a number that answers no printed one is the evidence for it.
+pub(crate) fn decided(claim: &ClaimRow) -> Option<String> {
+    let number = claim.ours.filter(|_| claim.printed.is_none());
+    let number = number.map(|value| number::with_error(value, claim.error, &claim.unit));
+    let parts = [Some(claim.how.clone()), number].into_iter().flatten();
+    let parts: Vec<String> = parts.filter(|part| !part.is_empty()).collect();
+    (!parts.is_empty()).then(|| format!("Decided by: {}", parts.join("; found: ")))
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use crate::across::{Across, MAP, NAME, READS, TITLE};
 use crate::chapter::{
-    Chapter, Figure, OPEN, PAPER, count_of_claims, few_held, heading, holds, in_short, open_claims,
-    ours, sign, split_first, told,
+    Chapter, Figure, OPEN, PAPER, count_of_claims, decided, few_held, heading, holds, in_short,
+    open_claims, ours, sign, split_first, told,
 };
 use crate::escape::{code_path, markdown, markdown_attribute, sentences};
 use crate::grid;
@@ -57,8 +57,9 @@ fn claim_row(chapter: &Chapter, claim: &ClaimRow) -> String {
     }
     let (why, rest) = split_first(&claim.why);
     format!(
-        "| {verdict} | {says} | {printed} | {ours} | {why} <details><summary>more</summary>{more}</details> |\n",
+        "| {verdict} | {says}<br>{place} | {printed} | {ours} | {why} <details><summary>more</summary>{more}</details> |\n",
         says = prose::markdown(&claim.says),
+        place = markdown(&claim.place),
         printed = markdown(&number::printed(claim.printed, claim.digits, &claim.unit)),
         ours = markdown(&ours(claim)),
         why = prose::markdown(&why),
@@ -70,9 +71,7 @@ fn claim_row(chapter: &Chapter, claim: &ClaimRow) -> String {
 fn more(chapter: &Chapter, claim: &ClaimRow, why: &str) -> Vec<String> {
     let mut all = vec![prose::markdown(why)];
     all.push(format!("{} · {}", markdown(&claim.place), markdown(&claim.id)));
-    if !claim.how.is_empty() {
-        all.push(format!("Decided by: {}", prose::markdown(&claim.how)));
-    }
+    all.extend(decided(claim).map(|text| prose::markdown(&text)));
     if let Some(figure) = chapter.shown(claim) {
         let title = prose::markdown(&figure.row.title);
         all.push(format!("[{title}]({}/{}.svg)", chapter.folder, figure.name));
@@ -200,7 +199,7 @@ fn pictures(out: &mut String, [model, solvers]: [Vec<&Figure>; 2]) {
         let names: Vec<String> =
             solvers.iter().map(|figure| prose::markdown_html(&figure.row.title)).collect();
         let inside: String = solvers.into_iter().map(picture).collect();
-        out.push_str(&folded(&names.join(" · "), &inside));
+        out.push_str(&folded(&format!("Solvers: {}", names.join(" · ")), &inside));
     }
 }
 

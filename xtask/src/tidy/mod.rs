@@ -1,13 +1,14 @@
 //! The house rules that a program can check.
 
 mod crates;
+mod equations;
 mod lists;
 mod sources;
 
 use crate::{
     claims,
     exit::{Exit, Failure},
-    output,
+    output, root,
 };
 use serde_json::json;
 use std::{
@@ -65,7 +66,14 @@ fn layout(root: &Path) -> Result<Vec<String>, Failure> {
     Ok(breaches)
 }
 
-/// The README opens with the two commands, and `.ci/run` calls the second.
+/// Prints the index of equations that the README shows.
+pub(crate) fn equations(root: &Path) -> Result<Exit, Failure> {
+    output::line(equations::table(root)?.trim_end());
+    Ok(Exit::Done)
+}
+
+/// The README opens with the two commands, has its generated tables and a picture of every experiment,
+/// and `.ci/run` calls the commands.
 fn readme(root: &Path) -> Result<Vec<String>, Failure> {
     let mut breaches = Vec::new();
     let readme = read(&root.join("README.md"))?;
@@ -74,6 +82,18 @@ fn readme(root: &Path) -> Result<Vec<String>, Failure> {
             breaches.push(format!("README.md: `{command}` does not stand in its first 40 lines"));
         }
     }
+    for name in root::experiments(root)? {
+        // A picture is `![…](reports/NAME/figure.svg)`.
+        let place = format!("](reports/{name}/");
+        let shown = readme.split(&place).skip(1).any(|rest| {
+            rest.split_once(')')
+                .is_some_and(|(file, _)| Path::new(file).extension().is_some_and(|e| e == "svg"))
+        });
+        if !shown {
+            breaches.push(format!("README.md: shows no picture of {name}"));
+        }
+    }
+    breaches.extend(equations::rules(root, &readme)?);
     let table = claims::table(&claims::committed(root, &root.join("reports"))?);
     if !readme.contains(&table) {
         breaches.push(

@@ -67,7 +67,7 @@ pub(super) fn rules(root: &Path) -> Result<Vec<String>, Failure> {
 }
 
 /// The number that a doc line ends with, as in `/// F = … (19)`.
-fn equation(line: &str) -> Option<String> {
+pub(super) fn equation(line: &str) -> Option<String> {
     let text = line.trim_start().strip_prefix("///")?;
     let (before, number) = text.trim_end().strip_suffix(')')?.rsplit_once('(')?;
     let digits = !number.is_empty() && number.chars().all(|c| c.is_ascii_digit());

@@ -287,7 +287,7 @@ fn draw_key(canvas: &Canvas) -> Result<(), Fault> {
 /// How the map is read.
 pub(crate) const READS: &str = "A number k stands for a largest error of at most 10^k, relative. \
      Fixed steps are shown at the finest step of their study, step control at the tolerance next to 10⁻⁶, \
-     both restarted at corners.";
+     both restarted at corners where that was run.";
 
 #[cfg(test)]
 mod tests {

@@ -30,6 +30,8 @@ struct Problem<'a> {
     study: &'a str,
     /// The point of its sweep; empty without one.
     point: &'a str,
+    /// The most evaluations a run of it may use.
+    budget: u64,
     /// The bound of the reference's own error, relative.
     own: f64,
     /// The runs.
@@ -131,14 +133,11 @@ impl Across {
         let mut tables = vec![tables::solvers(&problems, &solvers)];
         tables.extend(tables::lies(&problems));
         tables.push(cheapest::table(&problems));
-        for (chapter, title) in titles.iter().enumerate() {
+        for chapter in 0..chapters.len() {
             let own: Vec<&Problem> = problems.iter().filter(|p| p.chapter == chapter).collect();
-            tables.extend((!own.is_empty()).then(|| tables::matrix(&own, &solvers, title)));
+            tables.extend((!own.is_empty()).then(|| tables::matrix(&own, &solvers)));
         }
-        let budgets = chapters.iter().flat_map(|chapter| &chapter.summary.studies);
-        let budgets = budgets
-            .filter(|study| problems.iter().any(|problem| problem.study == study.study))
-            .map(|study| study.budget);
+        let budgets = problems.iter().map(|problem| problem.budget);
         let text = text(&problems, solvers.len(), budgets);
         Ok(Some(Self { text, map: heat::draw(&problems, &solvers, &titles)?, tables }))
     }
@@ -165,12 +164,13 @@ fn problems<'a>(chapters: &[Chapter<'a>]) -> Vec<Problem<'a>> {
                 continue;
             }
             let row = summary.studies.iter().find(|row| row.study == study);
+            let budget = row.map_or(0, |row| row.budget);
             let error = row.and_then(|row| row.reference_error).filter(|e| e.is_finite());
             for point in distinct(own.clone().map(|case| case.point.as_str())) {
                 let cases = own.clone().filter(|case| case.point == point).collect();
                 let own = error.unwrap_or(0.0);
                 let experiment = summary.name.as_str();
-                all.push(Problem { chapter: n, experiment, study, point, own, cases });
+                all.push(Problem { chapter: n, experiment, study, point, budget, own, cases });
             }
         }
     }
@@ -192,7 +192,7 @@ fn text(problems: &[Problem], solvers: usize, budgets: impl Iterator<Item = u64>
              An error is the largest of its run, relative to the largest response of the study’s reference: \
              the force where the motion is imposed, the displacement or the angle where a plant is driven. \
              A cost is a count of evaluations of the right-hand side, not a time; Jacobians are counted apart. \
-             A run fails when it exceeds its study’s budget of evaluations{budget}, so to fail is to fail at that price.",
+             A run that exceeds its study’s budget of evaluations{budget} has failed: at another price it might not.",
             problems.len(),
             number::count(u64::try_from(runs).unwrap_or(u64::MAX)),
         ),

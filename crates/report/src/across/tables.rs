@@ -8,7 +8,7 @@ use crate::select::{SOLVED, distinct};
 use record::CaseRow;
 
 /// The most silent failures listed of methods with step control, and of fixed steps.
-const LISTED: (usize, usize) = (8, 3);
+const LISTED: (usize, usize) = (7, 3);
 
 fn of(part: usize, all: usize) -> String {
     if all == 0 { NONE.to_owned() } else { format!("{part}/{all}") }
@@ -162,7 +162,8 @@ fn lie_row(lie: &Lie) -> Vec<String> {
 }
 
 /// Solver × study of one experiment.
-pub(super) fn matrix(problems: &[&Problem], solvers: &[&str], title: &str) -> Table {
+pub(super) fn matrix(problems: &[&Problem], solvers: &[&str]) -> Table {
+    let experiment = problems.first().map_or("", |problem| problem.experiment);
     let studies = distinct(problems.iter().map(|problem| problem.study));
     let row = |solver: &&str| {
         let cell = |study: &&str| {
@@ -174,15 +175,19 @@ pub(super) fn matrix(problems: &[&Problem], solvers: &[&str], title: &str) -> Ta
         let run = cells.iter().any(|cell| cell != NONE);
         run.then(|| std::iter::once((*solver).to_owned()).chain(cells).collect())
     };
+    let named = |study: &&str| {
+        let budget = problems.iter().find(|p| p.study == *study).map_or(0, |p| p.budget);
+        format!("{study}\nbudget {}", number::count(budget))
+    };
     let head = std::iter::once("solver".to_owned());
     Table {
-        title: format!("Solver by study: {title}"),
+        title: format!("Solver by study: {experiment}"),
         reads: "Each cell: runs solved; the smallest error of a run; the least evaluations for a largest error \
                 of 10⁻³ and of 10⁻⁶, at the point of the sweep that costs most, – if a point is never reached; \
                 after ⚠ the silent failures, gross + missed by three digits."
             .to_owned(),
         grid: Grid {
-            head: head.chain(studies.iter().map(|study| (*study).to_owned())).collect(),
+            head: head.chain(studies.iter().map(named)).collect(),
             rows: solvers.iter().filter_map(row).collect(),
             class: "across",
             words: 1,

@@ -18,7 +18,12 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
     if !summary.about("paper").is_empty() {
         put!(out, "<p class=\"place\">{}</p>\n", prose::html(summary.about("paper")));
     }
-    out.push_str(&paragraphs(summary.about("text")));
+    let (first, rest) =
+        summary.about("text").split_once("\n\n").unwrap_or((summary.about("text"), ""));
+    out.push_str(&paragraphs(first));
+    if !rest.trim().is_empty() {
+        put!(out, "<details><summary>More of it</summary>\n{}</details>\n", paragraphs(rest));
+    }
     for study in &summary.studies {
         write_study(out, chapter, study);
     }
@@ -35,8 +40,13 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
             table.html("Measured quantities")
         );
     }
-    for study in distinct(summary.cases.iter().map(|case| case.study.as_str())) {
-        write_errors(out, chapter, study);
+    let studies = distinct(summary.cases.iter().map(|case| case.study.as_str()));
+    if !studies.is_empty() {
+        out.push_str("<details><summary>Orders, errors and every case</summary>\n");
+        for study in studies {
+            write_errors(out, chapter, study);
+        }
+        out.push_str("</details>\n");
     }
     out.push_str("</section>\n");
 }
@@ -72,8 +82,12 @@ fn write_folded(out: &mut String, chapter: &Chapter, figures: &[&Figure]) {
     if figures.is_empty() {
         return;
     }
-    let names: Vec<String> = figures.iter().map(|f| prose::html(&f.row.title)).collect();
-    put!(out, "<details class=\"figures\"><summary>{}</summary>\n", names.join(" · "));
+    let count = figures.len();
+    let figures_of = if count == 1 { "figure" } else { "figures" };
+    put!(
+        out,
+        "<details class=\"figures\"><summary>How the solvers did: {count} {figures_of}</summary>\n"
+    );
     for figure in figures {
         write_figure(out, chapter, figure);
     }
@@ -123,7 +137,7 @@ fn write_errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
     let summary = chapter.summary;
     let heading = chapter.heading_of(study);
     let name = prose::html(heading);
-    put!(out, "<details><summary>{name}: orders, errors and every case</summary>\n");
+    put!(out, "<details><summary>{name}</summary>\n");
     if let Some(table) = grid::orders(summary, study) {
         put!(
             out,

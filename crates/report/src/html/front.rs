@@ -3,8 +3,8 @@
 use super::{code, solvers};
 use crate::across::{Across, TITLE};
 use crate::chapter::{
-    Chapter, OPEN, PAPER, count_of_claims, few_held, holds, in_short, open_claims, ours, sign,
-    split_first,
+    Chapter, Figure, OPEN, PAPER, count_of_claims, decided, few_held, holds, in_short, open_claims,
+    ours, sign, split_first,
 };
 use crate::escape::{html, slug};
 use crate::number;
@@ -84,7 +84,7 @@ fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
         out,
         "<tbody id=\"claim--{id}\"><tr><td rowspan=\"2\"><span class=\"verdict {class}\">\
          <b aria-hidden=\"true\">{sign}</b>{verdict}</span>{note}\
-         <td class=\"says\">{says}<td data-label=\"Printed\" class=\"n\">{printed}\
+         <td class=\"says\">{says}<small>{place}</small><td data-label=\"Printed\" class=\"n\">{printed}\
          <td data-label=\"Ours\" class=\"n\">{ours}\
          <tr><td colspan=\"3\" class=\"why\"><p>{why}</p>{more}</tbody>\n",
         id = slug(&claim.id),
@@ -92,6 +92,7 @@ fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
         sign = sign(&claim.verdict),
         verdict = html(&claim.verdict),
         says = prose::html(&claim.says),
+        place = html(&claim.place),
         printed = html(&printed),
         ours = html(&ours(claim)),
         why = prose::html(&why),
@@ -106,9 +107,7 @@ fn more(chapter: &Chapter, claim: &ClaimRow, why: &str) -> String {
 
 fn told(chapter: &Chapter, claim: &ClaimRow, why: &str) -> String {
     let mut lines = vec![format!("{} · {}", html(&claim.place), html(&claim.id))];
-    if !claim.how.is_empty() {
-        lines.push(format!("Decided by: {}", prose::html(&claim.how)));
-    }
+    lines.extend(decided(claim).map(|text| prose::html(&text)));
     if let Some(figure) = chapter.shown(claim) {
         lines.push(format!("<a href=\"#{}\">{}</a>", figure.id, prose::html(&figure.row.title)));
     }
@@ -162,17 +161,29 @@ fn write_thumbnails(out: &mut String, chapters: &[Chapter]) {
     }
     out.push_str("<section>\n<h2 id=\"figures\">Figures</h2>\n");
     for chapter in chapters.iter().filter(|chapter| !chapter.figures.is_empty()) {
-        put!(out, "<h3>{}</h3>\n<ul class=\"thumbs\">\n", html(chapter.title()));
-        for figure in &chapter.figures {
-            let drawing = &figure.drawing;
-            let part = |n| format!("{}-{n}", figure.id);
-            let small = thumbnail(&drawing.panels, drawing.columns, part);
-            // Long titles are read at the figures themselves.
-            let title = figure.row.title.split(": ").next().unwrap_or_default();
-            let (id, title) = (&figure.id, prose::html(title));
-            put!(out, "<li><a href=\"#{id}\">{small}<span>{title}</span></a>\n");
+        put!(out, "<h3>{}</h3>\n", html(chapter.title()));
+        let (solvers, model): (Vec<&Figure>, Vec<&Figure>) =
+            chapter.figures.iter().partition(|figure| figure.kind.of_solvers);
+        write_thumbs(out, &model);
+        if !solvers.is_empty() {
+            put!(out, "<details><summary>Of the solvers: {}</summary>\n", solvers.len());
+            write_thumbs(out, &solvers);
+            out.push_str("</details>\n");
         }
-        out.push_str("</ul>\n");
     }
     out.push_str("</section>\n");
+}
+
+fn write_thumbs(out: &mut String, figures: &[&Figure]) {
+    out.push_str("<ul class=\"thumbs\">\n");
+    for figure in figures {
+        let drawing = &figure.drawing;
+        let part = |n| format!("{}-{n}", figure.id);
+        let small = thumbnail(&drawing.panels, drawing.columns, part);
+        // Long titles are read at the figures themselves.
+        let title = figure.row.title.split(": ").next().unwrap_or_default();
+        let (id, title) = (&figure.id, prose::html(title));
+        put!(out, "<li><a href=\"#{id}\">{small}<span>{title}</span></a>\n");
+    }
+    out.push_str("</ul>\n");
 }
