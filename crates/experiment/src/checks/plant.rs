@@ -55,7 +55,7 @@ check!(
 );
 check!(
     /// Whether the drum rests for a part of every period.
-    RESTS, "rests", "", &[], false, rests
+    RESTS, "rests", "", &["below"], false, rests
 );
 
 /// Swings after which the mass is near its rest.
@@ -64,8 +64,6 @@ const SWINGS: usize = 3000;
 const NEAR: f64 = 0.01;
 /// The least share of the way that a staircase makes in its slips.
 const IN_SLIPS: f64 = 0.9;
-/// Below this share of its largest speed the drum rests.
-const REST: f64 = 0.01;
 
 fn one<'a>(plan: &'a Plan, subject: &Subject) -> Result<(&'a Study, usize), String> {
     let point = subject.points.first().ok_or("no point of the sweep")?;
@@ -285,15 +283,16 @@ fn equivalent(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
 
 fn rests(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
     let (study, point) = one(plan, subject)?;
-    let share = seen(study, point, |view| Ok(view.rest_share(REST)))?;
+    let [below] = subject.argument("below")?;
+    let share = seen(study, point, |view| Ok(view.rest_share(below)))?;
     Ok(Checked {
         holds: share > 0.1,
         value: Some(share),
         error: None,
         unit: "1",
         how: format!(
-            "share of the second half of the run in which the speed is below {REST} of its largest there; it \
-             rests if that is more than a tenth"
+            "share of the second half of the run in which the speed is below {below} rad/s; it rests if that is \
+             more than a tenth"
         ),
     })
 }

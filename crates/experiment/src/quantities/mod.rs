@@ -92,6 +92,7 @@ pub const QUANTITIES: &[Quantity] = &[
     plant::STICK_DRIVE,
     plant::FULL_SLIPS,
     plant::REST_SHARE,
+    plant::FIRST_PEAK,
     quasi_static::Q_MAX,
     quasi_static::AREA,
     quasi_static::FIRST_PEAK,

@@ -72,7 +72,13 @@ impl<'a> View<'a> {
         self.extreme(span, side, |t| self.force(t))
     }
 
-    fn extreme(&self, (from, to): (f64, f64), side: f64, of: impl Fn(f64) -> f64) -> f64 {
+    /// The largest value over a span for `side` 1, the smallest for −1.
+    pub(crate) fn extreme(
+        &self,
+        (from, to): (f64, f64),
+        side: f64,
+        of: impl Fn(f64) -> f64,
+    ) -> f64 {
         let value = |t: f64| side * of(t);
         let grid = self.grid((from, to));
         let values: Vec<f64> = grid.iter().map(|t| value(*t)).collect();
@@ -162,16 +168,13 @@ impl<'a> View<'a> {
         found.ok_or_else(|| format!("there are {} slips, not {number}", slips.len()))
     }
 
-    /// The share of the second half of the run in which the speed is below `share` of its largest there.
-    pub(crate) fn rest_share(&self, share: f64) -> f64 {
+    /// The share of the second half of the run in which the speed is below `speed` [m/s].
+    pub(crate) fn rest_share(&self, speed: f64) -> f64 {
         /// The times at which it is looked at.
         const LOOKS: u32 = 20_000;
         let half = 0.5 * self.end();
-        let speeds =
-            (0..=LOOKS).map(|i| self.v(half * (1.0 + f64::from(i) / f64::from(LOOKS))).abs());
-        let speeds: Vec<f64> = speeds.collect();
-        let largest = speeds.iter().copied().fold(0.0, f64::max);
-        speeds.iter().filter(|v| **v < share * largest).count() as f64 / f64::from(LOOKS + 1)
+        let at = |i: u32| self.v(half * (1.0 + f64::from(i) / f64::from(LOOKS))).abs();
+        (0..=LOOKS).filter(|i| at(*i) < speed).count() as f64 / f64::from(LOOKS + 1)
     }
 
     /// How often the motion turns while every element slips: all deflections at their deadbands.

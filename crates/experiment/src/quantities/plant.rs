@@ -217,9 +217,24 @@ quantity!(
     REST_SHARE,
     "rest_share",
     "1",
-    "share of the second half of the run in which the speed is below 1 % of its largest there",
+    "share of the second half of the run in which the speed is below a given one",
+    &["below"],
+    |plan, subject| {
+        let [below] = subject.argument("below")?;
+        both(plan, subject, |view| Ok(view.rest_share(below)))
+    }
+);
+
+quantity!(
+    FIRST_PEAK,
+    "first_peak",
+    "m",
+    "largest displacement in the first period of the input",
     &[],
-    |plan, subject| both(plan, subject, |view| Ok(view.rest_share(0.01)))
+    |plan, subject| {
+        let period = period(plan, subject)?;
+        both(plan, subject, |view| Ok(view.extreme((0.0, period), 1.0, |t| view.q(t))))
+    }
 );
 
 fn study<'a>(plan: &'a Plan, subject: &Subject) -> (&'a Study, usize) {
