@@ -76,10 +76,11 @@ pub(super) enum Kind {
 }
 
 /// A case of this kind: a spring of 0.1 to 10 N/m with a mass of 0.1 to 10 kg, friction of 0.1 to 1 N on contacts
-/// up to thirty times as stiff, driven from below to far above friction, over up to twenty periods of the contact.
+/// up to thirty times as stiff (LuGre: thirty thousand times), driven from below to far above friction, over up to twenty periods of the contact.
 pub(super) fn case(draw: &mut Draw, kind: Kind) -> Result<Case, InputError> {
     let (mass, stiffness) = (draw.log_uniform(0.1, 10.0), draw.log_uniform(0.1, 10.0));
     let (limit, k) = (draw.log_uniform(0.1, 1.0), stiffness * draw.log_uniform(1.0, 30.0));
+    let k = if kind == Kind::LuGre { k * draw.log_uniform(1.0, 1000.0) } else { k };
     let contact = match kind {
         Kind::Dahl => {
             let gamma = draw.pick(&[0.0, 0.5, 1.0, 2.0]);
