@@ -85,17 +85,20 @@ fn any_force_between_the_coulomb_forces_is_a_rest() {
 
 #[test]
 fn swings_die_out_as_one_over_n_and_take_the_friction_to_zero() {
-    let plant = held(2.0);
-    let Dahl { f_c, sigma, .. } = plant.dahl;
-    let from = Contact { q: 0.0, force: 0.0 };
-    let (some, many) = (plant.settle(from, 10_000), plant.settle(from, 100_000));
-    // δ → 3F_C K/(2σ²n) with n counted in cycles of two swings.
-    let theory = 3.0 * f_c * (plant.stiffness + sigma) / (sigma * sigma);
-    let found = many.swing * 100_000.0;
-    assert!((found / theory - 1.0).abs() < 1e-3, "swing · n = {found} m, expected {theory} m");
-    let slope = (many.rest.force / some.rest.force).abs().log10();
-    let theory = -3.0 * plant.stiffness / sigma;
-    assert!((slope - theory).abs() < 1e-3, "F falls as n^{slope}, expected n^{theory}");
+    for gamma in [0.5, 1.0, 2.0] {
+        let mut plant = held(2.0);
+        plant.dahl.gamma = gamma;
+        let Dahl { f_c, sigma, .. } = plant.dahl;
+        let from = Contact { q: 0.0, force: 0.0 };
+        let (some, many) = (plant.settle(from, 3000), plant.settle(from, 30_000));
+        // δ → 3F_C K/(2γσ²n) with n counted in cycles of two swings.
+        let theory = 3.0 * f_c * (plant.stiffness + sigma) / (gamma * sigma * sigma);
+        let found = many.swing * 30_000.0;
+        assert!((found / theory - 1.0).abs() < 2e-3, "γ = {gamma}: {found} m, expected {theory} m");
+        let slope = (many.rest.force / some.rest.force).abs().log10();
+        let theory = -3.0 * plant.stiffness / sigma;
+        assert!((slope - theory).abs() < 2e-3, "γ = {gamma}: n^{slope}, expected n^{theory}");
+    }
 }
 
 #[test]

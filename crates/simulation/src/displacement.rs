@@ -75,8 +75,20 @@ impl ByDisplacement {
         Ok(run.path)
     }
 
-    /// Steps that keep q to 1e-8 of its size over hundreds of periods: an eightieth of a radian of the
-    /// fastest motion each.
+    /// The path with steps that resolve the motion in time, [`Self::steps`], and at the speed it turns out
+    /// to have also the way on which F(q) bends: for Dahl F_C/σ, and the shorter the larger γ is.
+    pub fn resolve(&self, y0: &[f64], span: (f64, f64)) -> Result<Path, SimulationError> {
+        // Four steps to a node, so that F between the nodes is as good as q.
+        let steps = Steps { every: 4, ..self.steps() };
+        let path = self.solve(y0, span, steps)?;
+        let RateIndependent::Dahl(model) = &self.friction else { return Ok(path) };
+        let fastest = (0..path.t().len()).map(|i| path.node(i)[1].abs()).fold(0.0, f64::max);
+        let h = 0.025 * model.f_c / model.d_plus(-model.f_c) / fastest;
+        if h < steps.h { self.solve(y0, span, Steps { h, ..steps }) } else { Ok(path) }
+    }
+
+    /// Steps that keep q to 1e-8 of its size over hundreds of periods, if F(q) is not too curved: an
+    /// eightieth of a radian of the fastest motion each, sixteen to a node.
     pub fn steps(&self) -> Steps {
         Steps { h: 0.0125 / self.fastest(), every: 16 }
     }
@@ -150,6 +162,8 @@ impl Memory<'_> {
     /// State i, F [N] or z_i [m], at the displacement `way` from the last reversal.
     fn state(&self, i: usize, way: f64) -> f64 {
         match self.of {
+            // Beyond its only kink, at γ < 1, F is F_C to the last digit: w = 10⁻¹⁶ would be another branch.
+            RateIndependent::Dahl(model) if self.passed > 0.0 => self.s * model.f_c,
             RateIndependent::Dahl(model) => dahl::advance(model, self.x[0], way),
             RateIndependent::MaxwellSlip(model) => {
                 maxwell_slip::stop(self.x[i], way, model.delta[i])

@@ -10,14 +10,17 @@
 
 pub mod displacement;
 mod driven;
+pub mod energy;
 mod error;
 pub mod exact;
 mod motion;
 mod path;
 pub mod plant_reference;
 mod prescribed;
+pub mod properties;
 
 pub use driven::DrivenPlant;
+pub use energy::Energy;
 pub use error::SimulationError;
 pub use motion::Motion;
 pub use path::Path;

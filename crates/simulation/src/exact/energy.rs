@@ -1,28 +1,7 @@
-//! Where the energy goes.
+//! Where the energy of the exact solution goes.
 
 use super::{ExactSolution, Leg};
-
-/// The energy account of a plant over a span [J].
-///
-/// The parts are computed each for itself, so that their balance is a check of the solution.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Energy {
-    /// Work of the drive ∫ w dq.
-    pub drive_work: f64,
-    /// Kinetic energy, and that of the spring and the elements, at the end less that at the start.
-    pub stored: f64,
-    /// What the slipping elements turn into heat, Σ kᵢΔᵢ times their slip.
-    pub dissipated: f64,
-    /// The largest of work taken in, energy stored and heat on the way, to compare the balance with.
-    pub scale: f64,
-}
-
-impl Energy {
-    /// What the account leaves open: zero but for rounding.
-    pub fn residue(&self) -> f64 {
-        self.drive_work - self.stored - self.dissipated
-    }
-}
+use crate::Energy;
 
 /// Nodes and weights of the Gauss–Legendre rule of order 10 on [−1, 1]; each node stands for two.
 const GAUSS: [(f64, f64); 5] = [

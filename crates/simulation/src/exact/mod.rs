@@ -11,8 +11,6 @@ mod energy;
 mod sample;
 mod turn;
 
-pub use energy::Energy;
-
 use crate::{
     SimulationError,
     error::{check_span, deflections},

@@ -9,8 +9,8 @@
 //! rest swings on, and for γ = 1 the swings shrink as 1/n only. The contact is stiffer on the way back
 //! to F = 0 than on the way out, so each cycle takes F a little towards 0: with f = F/F_C and a swing δ,
 //! per cycle Δδ = −2σ²δ²/(3F_C K) and Δf = −2k_sσfδ/(F_C K), K = k_s + σ, to leading order, hence
-//! δ → 3F_C K/(2σ²n) and f ~ n^(−3k_s/σ) (while 3k_s < σ; what is of higher order in δ gives 1/n). The
-//! paper has F settle at ±F_C and the mass at (F_e ∓ F_C)/k_s, where no trajectory goes.
+//! δ → 3F_C K/(2σ²n) and f ~ n^(−3k_s/σ) (while 3k_s < σ; what is of higher order in δ gives 1/n). For
+//! any other γ > 0 δ is the γ-th part of that, and the exponent the same. The paper has F settle at ±F_C and the mass at (F_e ∓ F_C)/k_s, where no trajectory goes.
 
 use super::{advance, work};
 use crate::{Dahl, sgn};
