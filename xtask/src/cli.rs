@@ -45,6 +45,12 @@ pub(crate) enum Command {
         #[arg(long, conflicts_with = "json")]
         markdown: bool,
     },
+    /// Run what takes long, on request.
+    Bench {
+        /// What.
+        #[command(subcommand)]
+        what: Bench,
+    },
     /// Start something new.
     New {
         /// What.
@@ -60,6 +66,35 @@ pub(crate) enum Command {
         #[arg(long, conflicts_with = "json")]
         equations: bool,
     },
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Bench {
+    /// Try the properties of plants with friction on cases drawn at random.
+    Properties(PropertiesArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PropertiesArgs {
+    /// How many cases of each property.
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = cases)]
+    pub(crate) cases: usize,
+    /// The first seed; each case has the next.
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(..1 << 62))]
+    pub(crate) seed: u64,
+    /// Threads; as many as there are processors if not given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// As JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn cases(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(n) if (1..=10_000_000).contains(&n) => Ok(n),
+        _ => Err("expected a number of cases, from 1 to 10000000".to_owned()),
+    }
 }
 
 #[derive(Debug, Subcommand)]

@@ -1,5 +1,6 @@
 //! `cargo xtask`: the only program, and the only place that prints.
 
+mod bench;
 mod claims;
 mod cli;
 mod exit;
@@ -13,7 +14,7 @@ mod screen;
 mod tidy;
 
 use clap::Parser;
-use cli::{Cli, Command};
+use cli::{Bench, Cli, Command};
 use exit::{Exit, Failure};
 use std::{panic, process::ExitCode};
 
@@ -41,6 +42,7 @@ fn run(cli: &Cli) -> Result<Exit, Failure> {
         Command::Show { name, json } => list::show(&root, name, *json),
         Command::Claims { markdown: true, .. } => claims::markdown(&root),
         Command::Claims { json, .. } => claims::claims(&root, *json),
+        Command::Bench { what: Bench::Properties(arguments) } => bench::properties(arguments),
         Command::New { what } => new::new(&root, what),
         Command::Tidy { equations: true, .. } => tidy::equations(&root),
         Command::Tidy { json, .. } => tidy::tidy(&root, *json),
