@@ -2,12 +2,14 @@
 
 mod error;
 mod polyline;
+mod repeated;
 mod sequence;
 mod wave;
 
 pub use error::InputError;
 
 use polyline::Polyline;
+use repeated::Repeated;
 use sequence::Sequence;
 use wave::{Kind, Wave};
 
@@ -19,6 +21,7 @@ pub struct Input(Shape);
 enum Shape {
     Wave(Wave),
     Polyline(Polyline),
+    Repeated(Repeated),
     Sequence(Sequence),
 }
 
@@ -55,11 +58,18 @@ impl Input {
         Polyline::new(t, u).map(|line| Self(Shape::Polyline(line)))
     }
 
+    /// Straight pieces between the samples u [m] at the times t [s], repeated for ever: the last u has
+    /// to be the first.
+    pub fn polyline(t: Vec<f64>, u: Vec<f64>) -> Result<Self, InputError> {
+        Repeated::new(t, u).map(|line| Self(Shape::Repeated(line)))
+    }
+
     /// Displacement u at time `t` [m].
     pub fn u(&self, t: f64) -> f64 {
         match &self.0 {
             Shape::Wave(wave) => wave.u(t),
             Shape::Polyline(line) => line.u(t),
+            Shape::Repeated(line) => line.u(t),
             Shape::Sequence(sequence) => sequence.u(t),
         }
     }
@@ -69,6 +79,7 @@ impl Input {
         match &self.0 {
             Shape::Wave(wave) => wave.u_dot(t),
             Shape::Polyline(line) => line.u_dot(t),
+            Shape::Repeated(line) => line.u_dot(t),
             Shape::Sequence(sequence) => sequence.u_dot(t),
         }
     }
@@ -78,6 +89,7 @@ impl Input {
         match &self.0 {
             Shape::Wave(wave) => Some(wave.period()),
             Shape::Polyline(_) => None,
+            Shape::Repeated(line) => Some(line.period()),
             Shape::Sequence(sequence) => sequence.period(),
         }
     }
@@ -87,6 +99,7 @@ impl Input {
         match &self.0 {
             Shape::Wave(wave) => wave.range(),
             Shape::Polyline(line) => line.range(),
+            Shape::Repeated(line) => line.range(),
             Shape::Sequence(sequence) => sequence.range(),
         }
     }
@@ -105,6 +118,7 @@ impl Input {
         let corners = match &self.0 {
             Shape::Wave(wave) => wave.corners(start, end),
             Shape::Polyline(line) => line.corners(),
+            Shape::Repeated(line) => line.corners(start, end),
             Shape::Sequence(sequence) => sequence.corners(start, end),
         };
         let margin = 8.0 * f64::EPSILON * start.abs().max(end.abs());
@@ -118,6 +132,7 @@ impl Input {
         let (inside, here) = match &self.0 {
             Shape::Wave(wave) => (wave.u_dot(middle), wave.u_dot_on(middle, t)),
             Shape::Polyline(line) => return line.u_dot(middle),
+            Shape::Repeated(line) => return line.u_dot(middle),
             Shape::Sequence(sequence) => return sequence.u_dot_on(from, to, t),
         };
         if inside * here < 0.0 { 0.0 } else { here }
