@@ -51,7 +51,8 @@ fn judge(plan: &Plan, claim: &Claim, measures: &[MeasureRow]) -> Result<ClaimRow
             row.ours = Some(measure.value);
             row.error = Some(measure.error);
             row.unit.clone_from(&measure.unit);
-            row.holds = Some(rounds_to(measure.value, printed));
+            let rounds = rounds_to(measure.value, printed);
+            row.holds = (rounds || !written.between_prints).then_some(rounds);
             row.code.clone_from(&measure.code);
             row.how = format!(
                 "{} ({}); holds if it rounds to the printed digits, within {} {}",
@@ -72,7 +73,9 @@ fn judge(plan: &Plan, claim: &Claim, measures: &[MeasureRow]) -> Result<ClaimRow
             row.how = found.how;
         }
     }
-    let verdict = verdict(row.holds, written.under_specified.as_deref(), written.qualitative);
+    let excluded = written.between_prints && row.holds.is_none();
+    let reason = written.under_specified.as_deref().or_else(|| excluded.then_some(""));
+    let verdict = verdict(row.holds, reason, written.qualitative);
     verdict.clone_into(&mut row.verdict);
     row.why = fill(&written.why, measures);
     if let Some(reason) = &written.under_specified {

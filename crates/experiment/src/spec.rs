@@ -48,6 +48,9 @@ pub struct StudySpec {
     pub name: String,
     /// Its title, for the report.
     pub title: String,
+    /// The label of its curve, where several studies share a panel; the model's name if not given.
+    #[serde(default)]
+    pub label: String,
     /// The physics, for the report.
     #[serde(default)]
     pub text: String,
@@ -130,11 +133,17 @@ pub struct PanelSpec {
     pub title: String,
     /// The study whose curves it shows; the figure's if not given.
     pub study: Option<String>,
-    /// What is drawn: `force-displacement`, `force-velocity` or `step-time`.
+    /// Further studies drawn in the same way.
+    #[serde(default)]
+    pub also: Vec<String>,
+    /// What is drawn: `force-displacement`, `force-velocity`, `steady-force` or `step-time`.
     pub show: String,
     /// `settled` (the limit cycle) or `from-start`; only for forces.
     #[serde(default)]
     pub from: String,
+    /// Solvers whose own path is drawn besides, or alone where the study has no exact answer.
+    #[serde(default)]
+    pub runs: Vec<RunSpec>,
     /// Label of the horizontal axis.
     pub x: String,
     /// Label of the vertical axis.
@@ -146,6 +155,18 @@ pub struct PanelSpec {
     /// Whether the vertical axis is logarithmic.
     #[serde(default)]
     pub y_log: bool,
+}
+
+/// One run of a solver, to be drawn.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunSpec {
+    /// The solver.
+    pub solver: String,
+    /// Steps per period, or the relative tolerance.
+    pub value: f64,
+    /// `restart` or `ignore`.
+    pub corners: String,
 }
 
 /// One quantity to measure.
@@ -180,6 +201,10 @@ pub struct ClaimSpec {
     pub check: Option<toml::Table>,
     /// Why the outcome depends on something the paper does not print.
     pub under_specified: Option<String>,
+    /// Both numbers are the paper's: the measure computes from one place what it prints in another. Where
+    /// they differ, two printed things exclude each other, and neither is ours to choose.
+    #[serde(default)]
+    pub between_prints: bool,
     /// Only a shape or an impression is claimed.
     #[serde(default)]
     pub qualitative: bool,

@@ -4,13 +4,14 @@ use crate::error::{Complaint, one_of};
 use duhem::Input;
 
 /// The shapes an input may have, each with its keys besides `shape`.
-const SHAPES: [(&str, &[&str]); 6] = [
+const SHAPES: [(&str, &[&str]); 7] = [
     ("sine", &["amplitude", "omega"]),
     ("cosine-offset", &["amplitude", "omega"]),
     ("triangle", &["amplitude", "omega"]),
     ("staircase", &["levels", "rise_time", "hold_time"]),
     ("sequence", &["parts"]),
     ("sampled", &["t", "u"]),
+    ("polyline", &["t", "u"]),
 ];
 
 /// The input and how a reader would write it.
@@ -52,6 +53,11 @@ pub(super) fn check(table: &toml::Table) -> Result<(Input, String), Complaint> {
             (Input::staircase(levels, rise, hold).map_err(refused)?, words)
         }
         "sequence" => sequence(table)?,
+        "polyline" => {
+            let (t, u) = (numbers(table, "t")?, numbers(table, "u")?);
+            let words = format!("u = polyline through {u:?} m at {t:?} s, repeated");
+            (Input::polyline(t, u).map_err(refused)?, words)
+        }
         _ => {
             let (t, u) = (numbers(table, "t")?, numbers(table, "u")?);
             let words = format!("u = {} samples", t.len());

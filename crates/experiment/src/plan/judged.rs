@@ -94,20 +94,19 @@ pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint>
     for (i, written) in spec.measure.iter().enumerate() {
         let under = |c: Complaint| c.under(&format!("measure[{i}]"));
         if !super::plain(&written.id) || measures.iter().any(|m| m.id == written.id) {
-            return Err(under(Complaint::new(
-                "id",
-                format!("`{}`", written.id),
-                "a plain id of its own",
-            )));
+            let found = format!("`{}`", written.id);
+            return Err(under(Complaint::new("id", found, "a plain id of its own")));
         }
         let mut what = written.what.clone();
         what.insert("study".to_owned(), written.study.clone().into());
         let name = input::text(&written.what, "quantity").map_err(|c| under(c.under("what")))?;
-        let quantity = QUANTITIES.iter().find(|q| q.name == name).ok_or_else(|| {
-            let known = QUANTITIES.iter().map(|q| q.name);
-            under(Complaint::new("what.quantity", format!("`{name}`"), one_of(name, known)))
-        })?;
         let subject = subject(&what, "quantity", studies).map_err(|c| under(c.under("what")))?;
+        let model = studies[subject.study].model.name;
+        let quantity =
+            named(QUANTITIES, |q| (q.name, q.model), (name, model)).ok_or_else(|| {
+                let known = QUANTITIES.iter().map(|q| q.name);
+                under(Complaint::new("what.quantity", format!("`{name}`"), one_of(name, known)))
+            })?;
         if subject.points.len() != 1 {
             let found = format!("{} points of the sweep", subject.points.len());
             return Err(under(Complaint::new(
@@ -201,10 +200,11 @@ fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result
         (None, Some(table)) => {
             let name = input::text(table, "name").map_err(|c| c.under("check"))?;
             let known = CHECKS.iter().map(|c| c.name);
-            let check = CHECKS.iter().find(|c| c.name == name).ok_or_else(|| {
+            let subject = subject(table, "name", studies).map_err(|c| c.under("check"))?;
+            let model = studies[subject.study].model.name;
+            let check = named(CHECKS, |c| (c.name, c.model), (name, model)).ok_or_else(|| {
                 Complaint::new("check.name", format!("`{name}`"), one_of(name, known))
             })?;
-            let subject = subject(table, "name", studies).map_err(|c| c.under("check"))?;
             told(check, &subject, &studies[subject.study]).map_err(|c| c.under("check"))?;
             Decision::Check(check, subject)
         }
@@ -221,6 +221,18 @@ fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result
         }
     }
     Ok(Claim { written: written.clone(), printed: written.printed.clone(), decision })
+}
+
+/// The entry of this name made for this model, or else the first of this name: one name may stand for
+/// the same thing in several models.
+fn named<T>(
+    list: &'static [T],
+    names: fn(&T) -> (&'static str, &'static str),
+    (name, model): (&str, &str),
+) -> Option<&'static T> {
+    let called = || list.iter().filter(|entry| names(entry).0 == name);
+    let fits = |entry: &&T| ["", model].contains(&names(entry).1);
+    called().find(fits).or_else(|| called().next())
 }
 
 /// Whether a quantity or a check is made for the study's model.

@@ -241,7 +241,8 @@ pub(crate) fn solver_names(names: &[String]) -> Vec<&'static str> {
 }
 
 /// What a panel may show.
-pub(crate) const SHOWS: [&str; 3] = ["force-displacement", "force-velocity", "step-time"];
+pub(crate) const SHOWS: [&str; 4] =
+    ["force-displacement", "force-velocity", "steady-force", "step-time"];
 
 fn figures(spec: &Spec, studies: &[Study], kinds: &[&str]) -> Result<Vec<FigureSpec>, Complaint> {
     let study = |name: &String, key: String| {
@@ -284,7 +285,15 @@ fn figures(spec: &Spec, studies: &[Study], kinds: &[&str]) -> Result<Vec<FigureS
                 let expected = one_of(&panel.show, SHOWS);
                 return Err(Complaint::new(key("show"), format!("`{}`", panel.show), expected));
             }
-            if panel.show != "step-time"
+            for name in &panel.also {
+                study(name, key("also"))?;
+            }
+            for run in &panel.runs {
+                study::solvers(std::slice::from_ref(&run.solver))
+                    .and_then(|_| study::corners(std::slice::from_ref(&run.corners)))
+                    .map_err(|c| c.under(&key("runs")))?;
+            }
+            if !["step-time", "steady-force"].contains(&panel.show.as_str())
                 && !["settled", "from-start"].contains(&panel.from.as_str())
             {
                 let expected = one_of(&panel.from, ["settled", "from-start"]);

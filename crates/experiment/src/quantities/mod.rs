@@ -1,6 +1,9 @@
 //! What can be measured: one entry for each quantity, with the two ways it is obtained.
 
 mod dahl;
+mod input;
+pub(crate) mod lugre;
+pub(crate) mod maxwell_slip;
 
 use crate::plan::{Plan, Subject};
 
@@ -27,7 +30,7 @@ impl Measured {
 pub struct Quantity {
     /// Its name in the TOML.
     pub name: &'static str,
-    /// The model it is a quantity of.
+    /// The model it is a quantity of; empty for any.
     pub model: &'static str,
     /// Its unit; `1` for none.
     pub unit: &'static str,
@@ -43,7 +46,7 @@ pub struct Quantity {
     pub measure: fn(&Plan, &Subject) -> Result<Measured, String>,
 }
 
-/// All quantities.
+/// All quantities; a name stands once for each model that has it.
 pub const QUANTITIES: &[Quantity] = &[
     dahl::FORCE_AT_TURN,
     dahl::LOOP_AREA,
@@ -56,6 +59,31 @@ pub const QUANTITIES: &[Quantity] = &[
     dahl::F_MINUS_AT_ZERO,
     dahl::F_MINUS_AT_ZERO_AS_PRINTED,
     dahl::SPEED_AT_ZERO_FORCE,
+    input::LARGEST_DISPLACEMENT,
+    input::SMALLEST_DISPLACEMENT,
+    input::LARGEST_SPEED,
+    input::STATES,
+    lugre::FORCE_MAX,
+    lugre::FORCE_MAX_FROM_START,
+    lugre::FORCE_AT_TURN,
+    lugre::LOOP_AREA,
+    lugre::FIRST_PERIOD_WORK,
+    lugre::SLOW_LIMIT_AREA,
+    lugre::SPEED_AT_MAXIMUM,
+    lugre::SPEED_AT_MINIMUM,
+    lugre::STEADY_MINIMUM,
+    lugre::STEADY_AT_STRIBECK,
+    lugre::STEADY_AT_LARGEST_SPEED,
+    lugre::DISSIPATIVE_SPEED,
+    lugre::RETURNING_SPEED,
+    maxwell_slip::FORCE_MAX,
+    maxwell_slip::FORCE_AT_TURN,
+    maxwell_slip::FORCE_AT_LEFT_TURN,
+    maxwell_slip::FORCE_RISING_AT_ZERO,
+    maxwell_slip::LOOP_AREA,
+    maxwell_slip::FIRST_PERIOD_WORK,
+    maxwell_slip::LAG,
+    maxwell_slip::AS_PRINTED,
 ];
 
 #[cfg(test)]
