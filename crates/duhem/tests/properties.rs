@@ -53,13 +53,13 @@ fn of_the_paper() -> LuGre {
 fn through(path: &[(f64, f64)], length: f64, speed: f64) -> (Input, f64) {
     let (mut t, mut u) = (vec![0.0], vec![0.0]);
     for (turn, pace) in path {
-        let (now, last) = (*t.last().unwrap(), *u.last().unwrap());
+        let (now, last) = (*t.last().expect("a point"), *u.last().expect("a point"));
         let way = (turn * length - last).abs().max(1e-9 * length);
         t.push(now + way / (pace * speed));
         u.push(turn * length);
     }
-    let end = *t.last().unwrap();
-    (Input::sampled(t, u).unwrap(), end)
+    let end = *t.last().expect("a point");
+    (Input::sampled(t, u).expect("an input"), end)
 }
 
 fn rest(model: &MaxwellSlip) -> Vec<f64> {
@@ -68,17 +68,21 @@ fn rest(model: &MaxwellSlip) -> Vec<f64> {
 
 /// The force at the end of a path, by the exact solution from rest or from `share` of the largest state.
 fn dahl_force(model: &Dahl, (input, end): &(Input, f64), share: f64) -> f64 {
-    dahl::Trajectory::new(model, input, share * model.f_c, (0.0, *end)).unwrap().force(*end)
+    dahl::Trajectory::new(model, input, share * model.f_c, (0.0, *end))
+        .expect("an exact answer")
+        .force(*end)
 }
 
 fn lugre_deflection(model: &LuGre, (input, end): &(Input, f64), share: f64) -> f64 {
     let x0 = share * model.f_s / model.sigma_0;
-    lugre::Trajectory::new(model, input, x0, (0.0, *end)).unwrap().deflection(*end)
+    lugre::Trajectory::new(model, input, x0, (0.0, *end)).expect("an exact answer").deflection(*end)
 }
 
 fn maxwell_force(model: &MaxwellSlip, (input, end): &(Input, f64), share: f64) -> f64 {
     let x0: Vec<f64> = model.delta.iter().map(|delta| -share * delta).collect();
-    maxwell_slip::Trajectory::new(model, input, &x0, (0.0, *end)).unwrap().force(*end)
+    maxwell_slip::Trajectory::new(model, input, &x0, (0.0, *end))
+        .expect("an exact answer")
+        .force(*end)
 }
 
 fn largest(model: &MaxwellSlip) -> f64 {
@@ -186,7 +190,7 @@ proptest! {
         let scaled = in_units(&model, n, m, s);
         let (length, speed) = (model.f_s / model.sigma_0, model.v_s);
         let run = |model: &LuGre, (input, end): &(Input, f64)| {
-            lugre::Trajectory::new(model, input, 0.0, (0.0, *end)).unwrap()
+            lugre::Trajectory::new(model, input, 0.0, (0.0, *end)).expect("an exact answer")
         };
         let a = run(&model, &through(&path, length, speed));
         let b = run(&scaled, &through(&path, length * m, speed * m / s));
@@ -307,11 +311,13 @@ fn lost_on(model: &LuGre, turns: &[(f64, f64)]) -> f64 {
     let length = model.f_s / model.sigma_0;
     let (mut t, mut u) = (vec![0.0], vec![turns[0].0 * length]);
     for (turn, speed) in turns.iter().skip(1).chain([&turns[0]]) {
-        let way = (turn * length - u.last().unwrap()).abs().max(1e-6 * length);
-        t.push(t.last().unwrap() + way / speed);
+        let way = (turn * length - u.last().expect("a point")).abs().max(1e-6 * length);
+        t.push(t.last().expect("a point") + way / speed);
         u.push(turn * length);
     }
-    lugre::settled(model, &Input::polyline(t, u).unwrap()).unwrap().work()
+    lugre::settled(model, &Input::polyline(t, u).expect("an input"))
+        .expect("an exact answer")
+        .work()
 }
 
 #[test]
@@ -334,7 +340,7 @@ fn a_unit_of_time_forgotten_in_the_damping_does_not_scale() {
     let path = [(4.0, 1.0), (-3.0, 0.5)];
     let work = |model: &LuGre, speed: f64| {
         let (input, end) = through(&path, 1.5e-5, speed);
-        lugre::Trajectory::new(model, &input, 0.0, (0.0, end)).unwrap().work()
+        lugre::Trajectory::new(model, &input, 0.0, (0.0, end)).expect("an exact answer").work()
     };
     let (given, scaled) = (work(&model, 1e-3), work(&right, 1e-3 / 60.0));
     assert!((scaled / given - 1.0).abs() < 1e-12, "{given} and {scaled} J");

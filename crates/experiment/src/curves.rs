@@ -113,19 +113,14 @@ fn of_solver(
     let solver = integrate::solver(&run.solver).ok_or("an unknown solver")?;
     let corners = if run.corners == "restart" { Corners::Restart } else { Corners::Ignore };
     let found = solved(study, point, (solver, run.value), corners)?;
-    if let integrate::Outcome::Failed { why, .. } = &found.run.outcome {
-        return Err(format!(
-            "{} to be drawn in `{}` failed: {}",
-            run.solver,
-            study.name,
-            why.name()
-        ));
-    }
-    let label = if fixed_step(solver) {
+    let mut label = if fixed_step(solver) {
         format!("{}, {} steps", run.solver, run.value)
     } else {
         format!("{}, {:e}", run.solver, run.value)
     };
+    if let integrate::Outcome::Failed { why, .. } = &found.run.outcome {
+        label = format!("{label}: {}", why.name());
+    }
     Ok((label, found.path.into_iter().map(xy).collect()))
 }
 

@@ -55,9 +55,10 @@ fn judge(plan: &Plan, claim: &Claim, measures: &[MeasureRow]) -> Result<ClaimRow
             row.holds = (rounds || !written.between_prints).then_some(rounds);
             row.code.clone_from(&measure.code);
             row.how = format!(
-                "{} ({}); holds if it rounds to the printed digits, within {} {}",
+                "{} ({}); {} if it rounds to the printed digits, within {} {}",
                 measure.what,
                 measure.method,
+                if written.between_prints { "the paper's two places agree" } else { "holds" },
                 half_digit(printed),
                 printed.unit
             );
@@ -136,8 +137,9 @@ pub fn four_digits(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{four_digits, placeholders, rounds_to, verdict};
-    use crate::spec::PrintedSpec;
+    use super::{claims, four_digits, measures, placeholders, rounds_to, verdict};
+    use crate::{Plan, spec::PrintedSpec};
+    use std::path::Path;
 
     fn printed(value: f64, digits: u64) -> PrintedSpec {
         PrintedSpec { value, digits, unit: "J".to_owned() }
@@ -159,6 +161,43 @@ mod tests {
         assert_eq!(verdict(Some(true), Some("m is not printed"), false), "under-specified");
         assert_eq!(verdict(None, None, false), "qualitative");
         assert_eq!(verdict(Some(true), None, false), "reproduced");
+    }
+
+    #[test]
+    fn two_prints_that_exclude_each_other_are_under_specified_and_two_that_agree_are_not() {
+        let verdict_of = |printed: f64| {
+            let text = format!(
+                r#"
+title = "t"
+paper = "p"
+text = "x"
+[[study]]
+name = "s"
+title = "t"
+model = {{ name = "coulomb", f_c = 0.75 }}
+input = {{ shape = "polyline", t = [0.0, 1.0, 3.0], u = [0.0, 0.01, 0.0] }}
+periods = 1
+[[measure]]
+id = "m"
+unit = "m"
+study = "s"
+what = {{ quantity = "largest_displacement" }}
+[[claim]]
+id = "c"
+place = "p"
+says = "s"
+printed = {{ value = {printed}, digits = 1, unit = "m" }}
+measure = "m"
+between_prints = true
+why = "w"
+"#
+            );
+            let plan = Plan::from_text("t", Path::new("t.toml"), &text, &[]).unwrap();
+            let row = claims(&plan, &measures(&plan).unwrap()).unwrap().remove(0);
+            (row.verdict, row.holds)
+        };
+        assert_eq!(verdict_of(0.02), ("under-specified".to_owned(), None));
+        assert_eq!(verdict_of(0.01), ("reproduced".to_owned(), Some(true)));
     }
 
     #[test]
