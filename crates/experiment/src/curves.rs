@@ -1,12 +1,14 @@
 //! The curves of figures: the exact answer's loops, and the steps that solvers took.
 
 use crate::{
-    plan::{Plan, Point, Study, solver_names},
+    plan::{Plan, Point, Study, fixed_step, solver_names},
     quantities::View,
     run::Finished,
-    spec::{FigureSpec, PanelSpec},
+    solved::solved,
+    spec::{FigureSpec, PanelSpec, RunSpec},
 };
-use duhem::FrictionModel;
+use duhem::{FrictionModel, LuGre};
+use integrate::Corners;
 use record::{CurveRow, PanelRow};
 
 /// Points drawn on each arc between two corners.
@@ -30,6 +32,7 @@ pub(crate) fn curves(
             let drawn = match panel.show.as_str() {
                 "step-time" => steps(plan, figure, panel, finished)?,
                 _ if of_plant(plan, figure, panel)? => plants(plan, figure, panel)?,
+                "steady-force" => steady(plan, figure, panel)?,
                 _ => forces(plan, figure, panel)?,
             };
             for (series, points) in drawn {
@@ -126,20 +129,71 @@ fn plants(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series,
 
 fn forces(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series, String> {
     let (_, study, points) = shown(plan, figure, panel)?;
-    points
-        .into_iter()
-        .map(|point| {
+    let mut all: Vec<(&Study, &Point)> = points.into_iter().map(|point| (study, point)).collect();
+    for name in &panel.also {
+        let more = plan.studies.iter().find(|s| s.name == *name).ok_or("an unknown study")?;
+        all.extend(more.points.iter().map(|point| (more, point)));
+    }
+    let mut series = Series::new();
+    let xy = |(u, u_dot, f)| if panel.show == "force-velocity" { (u_dot, f) } else { (u, f) };
+    for (study, point) in all {
+        let drawn_alone = study.reference.is_none() && !panel.runs.is_empty();
+        if !drawn_alone {
             let span = if panel.from == "settled" {
-                (SETTLED * study.period, (SETTLED + 1.0) * study.period)
+                let periods = SETTLED.max((study.span / study.period).ceil());
+                (periods * study.period, (periods + 1.0) * study.period)
             } else {
                 (0.0, study.span)
             };
             let path = path(study, point, span)?;
-            let xy =
-                |(u, u_dot, f)| if panel.show == "force-velocity" { (u_dot, f) } else { (u, f) };
-            Ok((pretty(&point.label, study), path.into_iter().map(xy).collect()))
-        })
-        .collect()
+            series.push((pretty(&point.label, study), path.into_iter().map(xy).collect()));
+        }
+        for run in &panel.runs {
+            series.push(of_solver(study, point, run, xy)?);
+        }
+    }
+    Ok(series)
+}
+
+/// A solver's own path, at its accepted steps.
+fn of_solver(
+    study: &Study,
+    point: &Point,
+    run: &RunSpec,
+    xy: impl Fn((f64, f64, f64)) -> (f64, f64),
+) -> Result<(String, Vec<(f64, f64)>), String> {
+    let solver = integrate::solver(&run.solver).ok_or("an unknown solver")?;
+    let corners = if run.corners == "restart" { Corners::Restart } else { Corners::Ignore };
+    let found = solved(study, point, (solver, run.value), corners)?;
+    let mut label = if fixed_step(solver) {
+        format!("{}, {} steps", run.solver, run.value)
+    } else {
+        format!("{}, {:e}", run.solver, run.value)
+    };
+    if let integrate::Outcome::Failed { why, .. } = &found.run.outcome {
+        label = format!("{label}: {}", why.name());
+    }
+    Ok((label, found.path.into_iter().map(xy).collect()))
+}
+
+/// The steady force, equation 21, over the panel's speeds, both sides of its jump at zero.
+fn steady(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series, String> {
+    let (_, study, points) = shown(plan, figure, panel)?;
+    let curve = |point: &&Point| {
+        let lugre = LuGre::new(&point.parameters).map_err(|e| e.to_string())?;
+        let grid = |end: f64| {
+            // Denser towards zero, where the force falls within a few v_S.
+            let at = move |i: u32| end * (f64::from(i) / f64::from(2 * PER_ARC)).powi(3);
+            (0..=2 * PER_ARC).map(at)
+        };
+        let nearest = |v: f64, end: f64| if v == 0.0 { f64::MIN_POSITIVE.copysign(end) } else { v };
+        let [left, right] = panel.x_range;
+        let down = grid(left).map(|v| nearest(v, left)).collect::<Vec<_>>().into_iter().rev();
+        let speeds = down.chain(grid(right).map(|v| nearest(v, right)));
+        let points = speeds.map(|v| (v, lugre.steady_force(v))).collect();
+        Ok((pretty(&point.label, study), points))
+    };
+    points.iter().map(curve).collect()
 }
 
 /// The exact answer's u, u̇ and F over a span, both sides of each corner.
@@ -206,7 +260,7 @@ fn steps(
     Ok(series)
 }
 
-/// A curve's label: the sweep's point, or the model's name without one.
+/// A curve's label: the sweep's point, or the study's own without one.
 fn pretty(label: &str, study: &Study) -> String {
-    if label.is_empty() { study.model.name.to_owned() } else { label.to_owned() }
+    if label.is_empty() { study.label.clone() } else { label.to_owned() }
 }

@@ -51,12 +51,14 @@ fn judge(plan: &Plan, claim: &Claim, measures: &[MeasureRow]) -> Result<ClaimRow
             row.ours = Some(measure.value);
             row.error = Some(measure.error);
             row.unit.clone_from(&measure.unit);
-            row.holds = Some(rounds_to(measure.value, printed));
+            let rounds = rounds_to(measure.value, printed);
+            row.holds = (rounds || !written.between_prints).then_some(rounds);
             row.code.clone_from(&measure.code);
             row.how = format!(
-                "{} ({}); holds if it rounds to the printed digits, within {} {}",
+                "{} ({}); {} if it rounds to the printed digits, within {} {}",
                 measure.what,
                 measure.method,
+                if written.between_prints { "the paper's two places agree" } else { "holds" },
                 half_digit(printed),
                 printed.unit
             );
@@ -73,7 +75,9 @@ fn judge(plan: &Plan, claim: &Claim, measures: &[MeasureRow]) -> Result<ClaimRow
             row.how = found.how;
         }
     }
-    let verdict = verdict(row.holds, written.under_specified.as_deref(), written.qualitative);
+    let excluded = written.between_prints && row.holds.is_none();
+    let reason = written.under_specified.as_deref().or_else(|| excluded.then_some(""));
+    let verdict = verdict(row.holds, reason, written.qualitative);
     verdict.clone_into(&mut row.verdict);
     row.why = fill(&written.why, measures);
     if let Some(reason) = &written.under_specified {
@@ -134,8 +138,9 @@ pub fn four_digits(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{four_digits, placeholders, rounds_to, verdict};
-    use crate::spec::PrintedSpec;
+    use super::{claims, four_digits, measures, placeholders, rounds_to, verdict};
+    use crate::{Plan, spec::PrintedSpec};
+    use std::path::Path;
 
     fn printed(value: f64, digits: u64) -> PrintedSpec {
         PrintedSpec { value, digits, unit: "J".to_owned() }
@@ -157,6 +162,43 @@ mod tests {
         assert_eq!(verdict(Some(true), Some("m is not printed"), false), "under-specified");
         assert_eq!(verdict(None, None, false), "qualitative");
         assert_eq!(verdict(Some(true), None, false), "reproduced");
+    }
+
+    #[test]
+    fn two_prints_that_exclude_each_other_are_under_specified_and_two_that_agree_are_not() {
+        let verdict_of = |printed: f64| {
+            let text = format!(
+                r#"
+title = "t"
+paper = "p"
+text = "x"
+[[study]]
+name = "s"
+title = "t"
+model = {{ name = "coulomb", f_c = 0.75 }}
+input = {{ shape = "polyline", t = [0.0, 1.0, 3.0], u = [0.0, 0.01, 0.0] }}
+periods = 1
+[[measure]]
+id = "m"
+unit = "m"
+study = "s"
+what = {{ quantity = "largest_displacement" }}
+[[claim]]
+id = "c"
+place = "p"
+says = "s"
+printed = {{ value = {printed}, digits = 1, unit = "m" }}
+measure = "m"
+between_prints = true
+why = "w"
+"#
+            );
+            let plan = Plan::from_text("t", Path::new("t.toml"), &text, &[]).unwrap();
+            let row = claims(&plan, &measures(&plan).unwrap()).unwrap().remove(0);
+            (row.verdict, row.holds)
+        };
+        assert_eq!(verdict_of(0.02), ("under-specified".to_owned(), None));
+        assert_eq!(verdict_of(0.01), ("reproduced".to_owned(), Some(true)));
     }
 
     #[test]

@@ -16,6 +16,7 @@ mod orders;
 mod plan;
 pub mod quantities;
 mod run;
+mod solved;
 pub mod spec;
 mod summary;
 

@@ -48,6 +48,9 @@ pub struct StudySpec {
     pub name: String,
     /// Its title, for the report.
     pub title: String,
+    /// The label of its curve, where several studies share a panel; the model's name if not given.
+    #[serde(default)]
+    pub label: String,
     /// The physics, for the report.
     #[serde(default)]
     pub text: String,
@@ -136,6 +139,9 @@ pub struct PanelSpec {
     pub title: String,
     /// The study whose curves it shows; the figure's if not given.
     pub study: Option<String>,
+    /// Further studies drawn in the same way.
+    #[serde(default)]
+    pub also: Vec<String>,
     /// What is drawn, as listed in `plan`: `force-displacement`, `displacement-time`, `step-time`, ….
     pub show: String,
     /// `settled` (the limit cycle) or `from-start`; only for the exact answer under an imposed motion.
@@ -143,6 +149,9 @@ pub struct PanelSpec {
     pub from: String,
     /// The stretch of time to show [s]; the whole span if not given. Only for plants.
     pub between: Option<[f64; 2]>,
+    /// Solvers whose own path is drawn besides, or alone where the study has no exact answer.
+    #[serde(default)]
+    pub runs: Vec<RunSpec>,
     /// Label of the horizontal axis.
     pub x: String,
     /// Label of the vertical axis.
@@ -154,6 +163,18 @@ pub struct PanelSpec {
     /// Whether the vertical axis is logarithmic.
     #[serde(default)]
     pub y_log: bool,
+}
+
+/// One run of a solver, to be drawn.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunSpec {
+    /// The solver.
+    pub solver: String,
+    /// Steps per period, or the relative tolerance.
+    pub value: f64,
+    /// `restart` or `ignore`.
+    pub corners: String,
 }
 
 /// One quantity to measure.
@@ -188,6 +209,10 @@ pub struct ClaimSpec {
     pub check: Option<toml::Table>,
     /// Why the outcome depends on something the paper does not print.
     pub under_specified: Option<String>,
+    /// Both numbers are the paper's: the measure computes from one place what it prints in another. Where
+    /// they differ, two printed things exclude each other, and neither is ours to choose.
+    #[serde(default)]
+    pub between_prints: bool,
     /// Only a shape or an impression is claimed.
     #[serde(default)]
     pub qualitative: bool,

@@ -19,7 +19,7 @@ const FAMILIES: [Family; 4] = [
         file: "mod.rs",
         list: "REFERENCES",
         // Loops and not trajectories: nothing to judge a run by.
-        helpers: &["second_way", "semilinear"],
+        helpers: &["masing", "second_way", "semilinear"],
     },
     Family {
         folder: "crates/integrate/src/solvers",

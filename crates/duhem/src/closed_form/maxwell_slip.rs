@@ -73,6 +73,20 @@ impl Trajectory {
         force(&self.model, &self.deflections(t))
     }
 
+    /// The largest force [N] over the span: F is monotone between the turns.
+    pub fn largest_force(&self) -> f64 {
+        let last = self.arcs.len();
+        let end = stop_all(&self.model, &self.z[last - 1], self.arcs.travel(last - 1));
+        self.z.iter().chain([&end]).map(|z| force(&self.model, z)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The displacements [m] at the start, at every turn and at the end.
+    pub fn turns(&self) -> Vec<f64> {
+        let starts = (0..self.arcs.len()).map(|k| self.arcs.u(k));
+        let last = self.arcs.len() - 1;
+        starts.chain([self.arcs.u(last) + self.arcs.travel(last)]).collect()
+    }
+
     /// ∫F du [J] over the whole span.
     pub fn work(&self) -> f64 {
         (0..self.arcs.len()).map(|k| work(&self.model, &self.z[k], self.arcs.travel(k))).sum()
@@ -129,6 +143,21 @@ impl Loop {
         let z_at_u_min = stop_all(model, &first, u_min - u_max);
         let z_at_u_max = stop_all(model, &z_at_u_min, u_max - u_min);
         Self { model: model.clone(), u_min, u_max, z_at_u_min, z_at_u_max }
+    }
+
+    /// The loop that a trajectory of this input is on in the `period` [s] that ends at `end` [s].
+    pub fn of(run: &Trajectory, input: &Input, (period, end): (f64, f64)) -> Self {
+        let (start, mut x) = (end - period, vec![0.0; run.model.k.len()]);
+        run.state(start, &mut x);
+        Self::new(&run.model, input.range_on(start, end), input.u(start), &x)
+    }
+
+    /// The energy [J] that the springs give back in one cycle, while they relax from either deflection
+    /// to none: of elements that slip both ways, Σ ½kᵢΔᵢ² twice.
+    pub fn returned(&self) -> f64 {
+        let of = |z: f64, goal: f64| if z * goal < 0.0 { 0.5 * z * z } else { 0.0 };
+        let ends = self.z_at_u_max.iter().zip(&self.z_at_u_min);
+        self.model.k.iter().zip(ends).map(|(k, (a, b))| k * (of(*a, *b) + of(*b, *a))).sum()
     }
 
     /// The force [N] at `u` [m] within the range, going up or down.

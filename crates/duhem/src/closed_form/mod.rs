@@ -2,6 +2,7 @@
 
 pub mod dahl;
 pub mod lugre;
+pub mod masing;
 pub mod maxwell_slip;
 pub mod second_way;
 pub mod semilinear;

@@ -2,6 +2,8 @@
 
 mod dahl;
 mod energy;
+mod lugre;
+mod maxwell_slip;
 mod plant;
 mod table1;
 
@@ -41,6 +43,12 @@ pub struct Check {
     pub run: fn(&Plan, &Subject) -> Result<Checked, String>,
 }
 
+/// An error as a check's complaint.
+#[expect(clippy::needless_pass_by_value, reason = "it is what `map_err` hands over")]
+fn fails(error: impl ToString) -> String {
+    error.to_string()
+}
+
 /// All checks.
 pub const CHECKS: &[Check] = &[
     dahl::COROLLARY_1,
@@ -57,6 +65,23 @@ pub const CHECKS: &[Check] = &[
     plant::PRESTRESSED,
     plant::EQUIVALENT,
     plant::RESTS,
+    lugre::IS_DAHL,
+    lugre::LOOP_CHANGES,
+    lugre::SLOW_ENOUGH,
+    lugre::STRIBECK,
+    lugre::LOCAL_MEMORY,
+    lugre::SLIDING,
+    lugre::DISSIPATES,
+    maxwell_slip::IS_DAHL,
+    maxwell_slip::PRESLIDING,
+    maxwell_slip::NONLOCAL,
+    maxwell_slip::ENERGY,
+    maxwell_slip::RETURNED,
+    maxwell_slip::LAG,
+    maxwell_slip::MIRROR,
+    maxwell_slip::OVERSHOOT,
+    maxwell_slip::RETURN_POINT,
+    maxwell_slip::WIPING_OUT,
     table1::DUHEM_TYPE,
     table1::RATE,
     table1::CONTINUITY,

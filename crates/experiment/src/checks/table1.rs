@@ -2,7 +2,7 @@
 
 use super::{Check, Checked};
 use crate::plan::{Plan, Subject};
-use duhem::{FrictionModel, form};
+use duhem::{DuhemForm, FrictionModel, form};
 
 /// The type of Duhem model: `static`, `semilinear` or `generalized`.
 pub(super) const DUHEM_TYPE: Check = Check {
@@ -79,14 +79,21 @@ fn duhem_type(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
         let model = model.as_ref();
         let mut here = 0.0_f64;
         for u_dot in [1.0, -1.0] {
-            let size = largest(x_dot(model, 0.0, u_dot)).max(f64::MIN_POSITIVE);
+            // An element of Maxwell-slip does not move at zero: then relative to where it does.
+            let size = match largest(x_dot(model, 0.0, u_dot)) {
+                0.0 => largest(PROBES.iter().flat_map(|share| x_dot(model, *share, u_dot))),
+                size => size,
+            };
+            let size = size.max(f64::MIN_POSITIVE);
             for share in PROBES {
                 let [a, b, c] = [share - 0.3, share, share + 0.3].map(|s| x_dot(model, s, u_dot));
                 let second = (0..b.len()).map(|i| (a[i] - 2.0 * b[i] + c[i]) / size);
                 here = here.max(largest(second));
             }
         }
-        names.push(match (model.states(), has_product_form(model), here < ROUNDING) {
+        // Equation 6 is affine in x and has u̇₊ and u̇₋ for its g; LuGre's g contains r(u̇).
+        let of_6 = model.form().is_some_and(DuhemForm::rate_independent);
+        names.push(match (model.states(), has_product_form(model), here < ROUNDING && of_6) {
             (0, ..) => "static",
             (_, false, _) => "no Duhem model",
             (_, true, true) => "semilinear",
@@ -101,8 +108,8 @@ fn duhem_type(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
         error: Some(ROUNDING),
         unit: "1",
         how: format!(
-            "largest second difference of dx/du in the state, relative to its size at zero; affine (semilinear) \
-             below {ROUNDING:e}, and ẋ the product f g of its Duhem form: found {found}"
+            "largest second difference of dx/du in the state, relative to its size at zero; affine below {ROUNDING:e}, \
+             semilinear if g is that of (6) besides, and ẋ the product f g of its Duhem form: found {found}"
         ),
     })
 }

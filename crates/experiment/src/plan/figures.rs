@@ -3,12 +3,12 @@
 use super::Study;
 use crate::{
     error::{Complaint, one_of},
-    spec::{FigureSpec, Spec},
+    spec::{FigureSpec, PanelSpec, Spec},
 };
 
 /// What a panel may show: the vertical quantity, then the horizontal one. Of a plant, `drive` is the force
 /// (or torque) that its input makes.
-pub(crate) const SHOWS: [&str; 8] = [
+pub(crate) const SHOWS: [&str; 9] = [
     "force-displacement",
     "force-velocity",
     "force-time",
@@ -16,6 +16,7 @@ pub(crate) const SHOWS: [&str; 8] = [
     "velocity-time",
     "displacement-drive",
     "drive-time",
+    "steady-force",
     "step-time",
 ];
 
@@ -65,22 +66,56 @@ pub(super) fn check(
                 let expected = one_of(&panel.show, SHOWS);
                 return Err(Complaint::new(key("show"), format!("`{}`", panel.show), expected));
             }
+            extras(panel, figure, studies)
+                .map_err(|c| c.under(&format!("figure[{i}].panel[{p}]")))?;
             let shown = panel.study.as_ref().or(figure.study.as_ref());
             let plant = studies.iter().any(|s| Some(&s.name) == shown && s.plant.is_some());
+            let bare = ["step-time", "steady-force"].contains(&panel.show.as_str());
             let imposed = panel.show.starts_with("force-") && panel.show != "force-time";
-            if !plant && !imposed && panel.show != "step-time" {
+            if !plant && !imposed && !bare {
                 let found = format!("`{}` of an imposed motion", panel.show);
                 let expected = "`force-displacement` or `force-velocity`, or a study with a plant";
                 return Err(Complaint::new(key("show"), found, expected));
             }
-            if !plant
-                && panel.show != "step-time"
-                && !["settled", "from-start"].contains(&panel.from.as_str())
-            {
+            if !plant && !bare && !["settled", "from-start"].contains(&panel.from.as_str()) {
                 let expected = one_of(&panel.from, ["settled", "from-start"]);
                 return Err(Complaint::new(key("from"), format!("`{}`", panel.from), expected));
             }
         }
     }
     Ok(spec.figure.clone())
+}
+
+/// What a panel draws besides the exact answer of its own study.
+fn extras(panel: &PanelSpec, figure: &FigureSpec, studies: &[Study]) -> Result<(), Complaint> {
+    let find = |name: &String| studies.iter().find(|s| s.name == *name);
+    for name in &panel.also {
+        let known = studies.iter().map(|s| s.name.as_str());
+        find(name)
+            .ok_or_else(|| Complaint::new("also", format!("`{name}`"), one_of(name, known)))?;
+    }
+    if panel.show == "steady-force"
+        && let Some(study) = panel.study.as_ref().or(figure.study.as_ref()).and_then(find)
+        && study.model.name != "lugre"
+    {
+        let found = format!("`{}`, whose model is {}", study.name, study.model.name);
+        return Err(Complaint::new("study", found, "a study of the lugre model, for equation 21"));
+    }
+    for (i, run) in panel.runs.iter().enumerate() {
+        let under = |c: Complaint| c.under(&format!("runs[{i}]"));
+        let solvers = super::study::solvers(std::slice::from_ref(&run.solver)).map_err(under)?;
+        super::study::corners(std::slice::from_ref(&run.corners)).map_err(under)?;
+        let [solver] = solvers[..] else {
+            return Err(under(Complaint::new("solver", &run.solver, "one solver, no set")));
+        };
+        let (range, expected) = if super::fixed_step(solver) {
+            (1.0..=1e6, "steps per period, from 1 to 1e6")
+        } else {
+            (1e-14..=0.5, "a relative tolerance, from 1e-14 to 0.5")
+        };
+        if !range.contains(&run.value) {
+            return Err(under(Complaint::new("value", run.value.to_string(), expected)));
+        }
+    }
+    Ok(())
 }

@@ -4,13 +4,14 @@ use crate::error::{Complaint, one_of};
 use duhem::{Input, PlantEntry};
 
 /// The shapes an input may have, each with its keys besides `shape`.
-const SHAPES: [(&str, &[&str]); 6] = [
+const SHAPES: [(&str, &[&str]); 7] = [
     ("sine", &["amplitude", "omega"]),
     ("cosine-offset", &["amplitude", "omega"]),
     ("triangle", &["amplitude", "omega"]),
     ("staircase", &["levels", "rise_time", "hold_time"]),
     ("sequence", &["parts"]),
     ("sampled", &["t", "u"]),
+    ("polyline", &["t", "u"]),
 ];
 
 /// The input and how a reader would write it: the displacement u, or what drives a plant.
@@ -60,6 +61,11 @@ pub(super) fn check(
             (Input::staircase(levels, rise, hold).map_err(refused)?, words)
         }
         "sequence" => sequence(table, plant)?,
+        "polyline" => {
+            let (t, u) = (numbers(table, "t")?, numbers(table, "u")?);
+            let words = format!("{symbol} = polyline through {u:?} {unit} at {t:?} s, repeated");
+            (Input::polyline(t, u).map_err(refused)?, words)
+        }
         _ => {
             let (t, u) = (numbers(table, "t")?, numbers(table, "u")?);
             let words = format!("{symbol} = {} samples", t.len());

@@ -106,19 +106,19 @@ pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint>
     for (i, written) in spec.measure.iter().enumerate() {
         let under = |c: Complaint| c.under(&format!("measure[{i}]"));
         if !super::plain(&written.id) || measures.iter().any(|m| m.id == written.id) {
-            return Err(under(Complaint::new(
-                "id",
-                format!("`{}`", written.id),
-                "a plain id of its own",
-            )));
+            let found = format!("`{}`", written.id);
+            return Err(under(Complaint::new("id", found, "a plain id of its own")));
         }
         let mut what = written.what.clone();
         what.insert("study".to_owned(), written.study.clone().into());
         let name = input::text(&written.what, "quantity").map_err(|c| under(c.under("what")))?;
-        let quantity = QUANTITIES.iter().find(|q| q.name == name).ok_or_else(|| {
-            let known = QUANTITIES.iter().map(|q| q.name);
-            under(Complaint::new("what.quantity", format!("`{name}`"), one_of(name, known)))
-        })?;
+        let study = input::text(&what, "study").map_err(|c| under(c.under("what")))?;
+        let model = studies[find_study(study, studies).map_err(under)?].model.name;
+        let quantity =
+            named(QUANTITIES, |q| (q.name, q.model), (name, model)).ok_or_else(|| {
+                let known = QUANTITIES.iter().map(|q| q.name);
+                under(Complaint::new("what.quantity", format!("`{name}`"), one_of(name, known)))
+            })?;
         let subject = subject(&what, ("quantity", quantity.takes), studies)
             .map_err(|c| under(c.under("what")))?;
         if subject.points.len() != 1 {
@@ -225,7 +225,10 @@ fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result
         (None, Some(table)) => {
             let name = input::text(table, "name").map_err(|c| c.under("check"))?;
             let known = CHECKS.iter().map(|c| c.name);
-            let check = CHECKS.iter().find(|c| c.name == name).ok_or_else(|| {
+            let study = input::text(table, "study").map_err(|c| c.under("check"))?;
+            let model =
+                studies[find_study(study, studies).map_err(|c| c.under("check"))?].model.name;
+            let check = named(CHECKS, |c| (c.name, c.model), (name, model)).ok_or_else(|| {
                 Complaint::new("check.name", format!("`{name}`"), one_of(name, known))
             })?;
             let subject =
@@ -249,6 +252,18 @@ fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result
         }
     }
     Ok(Claim { written: written.clone(), printed: written.printed.clone(), decision })
+}
+
+/// The entry of this name made for this model, or else the first of this name: one name may stand for
+/// the same thing in several models.
+fn named<T>(
+    list: &'static [T],
+    names: fn(&T) -> (&'static str, &'static str),
+    (name, model): (&str, &str),
+) -> Option<&'static T> {
+    let called = || list.iter().filter(|entry| names(entry).0 == name);
+    let fits = |entry: &&T| ["", model].contains(&names(entry).1);
+    called().find(fits).or_else(|| called().next())
 }
 
 /// Whether a quantity or a check is made for the study's model.

@@ -21,6 +21,8 @@ pub struct Study {
     pub name: String,
     /// Its title, for the report.
     pub title: String,
+    /// The label of its curve in a figure.
+    pub label: String,
     /// The physics, for the report.
     pub text: String,
     /// The model.
@@ -79,6 +81,7 @@ impl Study {
         let study = Self {
             name: spec.name.clone(),
             title: spec.title.clone(),
+            label: if spec.label.is_empty() { model.name } else { &spec.label }.to_owned(),
             text: spec.text.trim().to_owned(),
             model,
             model_text: sweep::text((model, &base), plant.as_ref(), &spec.sweep),

@@ -1,6 +1,9 @@
 //! What can be measured: one entry for each quantity, with the two ways it is obtained.
 
 mod dahl;
+mod input;
+pub(crate) mod lugre;
+pub(crate) mod maxwell_slip;
 mod path;
 mod plant;
 mod quasi_static;
@@ -33,7 +36,7 @@ impl Measured {
 pub struct Quantity {
     /// Its name in the TOML.
     pub name: &'static str,
-    /// The model it is a quantity of.
+    /// The model it is a quantity of; empty for any.
     pub model: &'static str,
     /// Its unit; `1` for none. Of a plant that turns, its angular twin: N·m for N, rad for m.
     pub unit: &'static str,
@@ -59,7 +62,7 @@ impl Quantity {
     }
 }
 
-/// All quantities.
+/// All quantities; a name stands once for each model that has it.
 pub const QUANTITIES: &[Quantity] = &[
     dahl::FORCE_AT_TURN,
     dahl::LOOP_AREA,
@@ -100,6 +103,31 @@ pub const QUANTITIES: &[Quantity] = &[
     rig::DRIVE_AMPLITUDE,
     rig::SLACK_ANGLE,
     rig::FULL_SLIP_FORCE,
+    input::LARGEST_DISPLACEMENT,
+    input::SMALLEST_DISPLACEMENT,
+    input::LARGEST_SPEED,
+    input::STATES,
+    lugre::FORCE_MAX,
+    lugre::FORCE_MAX_FROM_START,
+    lugre::FORCE_AT_TURN,
+    lugre::LOOP_AREA,
+    lugre::FIRST_PERIOD_WORK,
+    lugre::SLOW_LIMIT_AREA,
+    lugre::SPEED_AT_MAXIMUM,
+    lugre::SPEED_AT_MINIMUM,
+    lugre::STEADY_MINIMUM,
+    lugre::STEADY_AT_STRIBECK,
+    lugre::STEADY_AT_LARGEST_SPEED,
+    lugre::DISSIPATIVE_SPEED,
+    lugre::RETURNING_SPEED,
+    maxwell_slip::FORCE_MAX,
+    maxwell_slip::FORCE_AT_TURN,
+    maxwell_slip::FORCE_AT_LEFT_TURN,
+    maxwell_slip::FORCE_RISING_AT_ZERO,
+    maxwell_slip::LOOP_AREA,
+    maxwell_slip::FIRST_PERIOD_WORK,
+    maxwell_slip::LAG,
+    maxwell_slip::AS_PRINTED,
 ];
 
 #[cfg(test)]

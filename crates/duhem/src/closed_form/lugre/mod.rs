@@ -4,11 +4,14 @@
 //! elsewhere it is variation of constants, by quadrature to the last digits.
 
 mod panel;
+mod passivity;
+pub mod second_way;
 mod steady;
 mod trajectory;
 
+pub use passivity::{dissipation, dissipative_rate, dissipative_speed, returning_speed};
 pub use steady::{SteadyExtrema, steady_extrema};
-pub use trajectory::{Trajectory, settled_start};
+pub use trajectory::{Trajectory, settled, settled_start};
 
 use crate::{LuGre, sgn};
 
@@ -28,4 +31,25 @@ pub fn advance(lugre: &LuGre, x: f64, delta_u: f64, u_dot: f64) -> f64 {
 pub fn settled_deflection(lugre: &LuGre, speed: f64, beta: f64) -> f64 {
     let r = lugre.r(speed);
     r * (0.5 * beta / r).tanh()
+}
+
+/// ∫F du [J] over the displacement `delta_u` [m] at the constant velocity `u_dot` [m/s] from `x` [m]:
+/// dx/du = 1 − sx/r gives ∫x du = s r(Δu − Δx), and ∫ẋ du = u̇ Δx.
+pub fn work(lugre: &LuGre, x: f64, delta_u: f64, u_dot: f64) -> f64 {
+    let delta_x = advance(lugre, x, delta_u, u_dot) - x;
+    let elastic = lugre.sigma_0 * sgn(u_dot) * lugre.r(u_dot) * (delta_u - delta_x);
+    elastic + lugre.sigma_1 * u_dot * delta_x + lugre.sigma_2 * u_dot * delta_u
+}
+
+/// The largest value of `f` between `low` and `high`, by golden sections.
+pub(crate) fn largest((mut low, mut high): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
+    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let mut best = f(low).max(f(high));
+    for _ in 0..90 {
+        let (a, b) = (high - share * (high - low), low + share * (high - low));
+        let (fa, fb) = (f(a), f(b));
+        best = best.max(fa).max(fb);
+        if fa > fb { high = b } else { low = a }
+    }
+    best
 }

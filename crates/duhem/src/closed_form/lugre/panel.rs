@@ -43,7 +43,7 @@ pub(super) fn count(lugre: &LuGre, arcs: &Arcs, k: usize) -> f64 {
     let (start, end) = arcs.ends(k);
     let at = |part: f64| arcs.velocity(k, start + part * (end - start)).abs();
     let fastest = (0..=8).map(|i| at(f64::from(i) / 8.0)).fold(0.0, f64::max);
-    let by_travel = 4.0 * fastest * (end - start) / shortest;
+    let by_travel = 1.5 * fastest * (end - start) / shortest;
     let by_velocity = 8.0 * fastest / lugre.v_s;
     by_travel.max(by_velocity).max(4.0).ceil()
 }

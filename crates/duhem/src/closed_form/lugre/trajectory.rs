@@ -1,6 +1,6 @@
 //! The deflection over time.
 
-use super::{advance, panel};
+use super::{advance, largest, panel, work};
 use crate::{
     FrictionModel, Input, LuGre, Parameters,
     closed_form::{Arcs, Reference, ReferenceError, check},
@@ -68,11 +68,39 @@ impl Trajectory {
     pub fn work(&self) -> f64 {
         let ends = self.panels.iter().skip(1).map(|panel| panel.start).chain([self.end]);
         let pieces = self.panels.iter().zip(ends).map(|(panel, end)| {
+            // At constant speed a panel is a whole arc or half of one, far too long for Gauss.
+            if let Some(u_dot) = self.arcs.constant_velocity(panel.arc) {
+                return work(&self.lugre, panel.x, u_dot * (end - panel.start), u_dot);
+            }
             panel::gauss((panel.start, end), |t| {
                 self.force_on(*panel, t) * self.arcs.velocity(panel.arc, t)
             })
         });
         pieces.sum()
+    }
+
+    /// The largest force [N] over the span: the largest at the panels' ends, and between them by golden
+    /// sections about it.
+    pub fn largest_force(&self) -> f64 {
+        let mut best = (f64::NEG_INFINITY, 0);
+        for (i, panel) in self.panels.iter().enumerate() {
+            let at = [panel.start, self.end_of(i)].map(|t| self.force_on(*panel, t));
+            let force = at[0].max(at[1]);
+            if force > best.0 {
+                best = (force, i);
+            }
+        }
+        let about = best.1.saturating_sub(1)..=(best.1 + 1).min(self.panels.len() - 1);
+        let finer = about.map(|i| {
+            let panel = self.panels[i];
+            largest((panel.start, self.end_of(i)), |t| self.force_on(panel, t))
+        });
+        finer.fold(best.0, f64::max)
+    }
+
+    /// The time [s] at which panel `i` ends.
+    fn end_of(&self, i: usize) -> f64 {
+        self.panels.get(i + 1).map_or(self.end, |next| next.start)
     }
 
     fn force_on(&self, panel: Panel, t: f64) -> f64 {
@@ -119,6 +147,12 @@ pub fn settled_start(lugre: &LuGre, input: &Input) -> Result<f64, ReferenceError
     let run = |x0| Trajectory::new(lugre, input, x0, (0.0, period));
     let (c, shifted) = (run(0.0)?.deflection(period), run(size)?.deflection(period));
     Ok(c / (1.0 - (shifted - c) / size))
+}
+
+/// One settled period of a periodic input.
+pub fn settled(lugre: &LuGre, input: &Input) -> Result<Trajectory, ReferenceError> {
+    let period = input.period().ok_or(ReferenceError::NoPeriod)?;
+    Trajectory::new(lugre, input, settled_start(lugre, input)?, (0.0, period))
 }
 
 /// How many panels arc `k` needs; one where the velocity is constant.
