@@ -2,6 +2,7 @@
 
 mod input;
 mod judged;
+mod panel;
 mod study;
 
 pub use judged::{Claim, Decision, Irreproducible, Measure, Subject};
@@ -10,7 +11,7 @@ pub use study::{Point, Study};
 use crate::{
     ExperimentError,
     error::{Complaint, one_of},
-    spec::{FigureSpec, PanelSpec, Spec, Written},
+    spec::{FigureSpec, Spec, Written},
 };
 use integrate::{Corners, Solver};
 use record::RecordError;
@@ -285,7 +286,7 @@ fn figures(spec: &Spec, studies: &[Study], kinds: &[&str]) -> Result<Vec<FigureS
                 let expected = one_of(&panel.show, SHOWS);
                 return Err(Complaint::new(key("show"), format!("`{}`", panel.show), expected));
             }
-            extras(panel, figure, studies)
+            panel::check(panel, figure, studies)
                 .map_err(|c| c.under(&format!("figure[{i}].panel[{p}]")))?;
             if !["step-time", "steady-force"].contains(&panel.show.as_str())
                 && !["settled", "from-start"].contains(&panel.from.as_str())
@@ -296,38 +297,4 @@ fn figures(spec: &Spec, studies: &[Study], kinds: &[&str]) -> Result<Vec<FigureS
         }
     }
     Ok(spec.figure.clone())
-}
-
-/// What a panel draws besides the exact answer of its own study.
-fn extras(panel: &PanelSpec, figure: &FigureSpec, studies: &[Study]) -> Result<(), Complaint> {
-    let find = |name: &String| studies.iter().find(|s| s.name == *name);
-    for name in &panel.also {
-        let known = studies.iter().map(|s| s.name.as_str());
-        find(name)
-            .ok_or_else(|| Complaint::new("also", format!("`{name}`"), one_of(name, known)))?;
-    }
-    if panel.show == "steady-force"
-        && let Some(study) = panel.study.as_ref().or(figure.study.as_ref()).and_then(find)
-        && study.model.name != "lugre"
-    {
-        let found = format!("`{}`, whose model is {}", study.name, study.model.name);
-        return Err(Complaint::new("study", found, "a study of the lugre model, for equation 21"));
-    }
-    for (i, run) in panel.runs.iter().enumerate() {
-        let under = |c: Complaint| c.under(&format!("runs[{i}]"));
-        let solvers = study::solvers(std::slice::from_ref(&run.solver)).map_err(under)?;
-        study::corners(std::slice::from_ref(&run.corners)).map_err(under)?;
-        let [solver] = solvers[..] else {
-            return Err(under(Complaint::new("solver", &run.solver, "one solver, no set")));
-        };
-        let (range, expected) = if fixed_step(solver) {
-            (1.0..=1e6, "steps per period, from 1 to 1e6")
-        } else {
-            (1e-14..=0.5, "a relative tolerance, from 1e-14 to 0.5")
-        };
-        if !range.contains(&run.value) {
-            return Err(under(Complaint::new("value", run.value.to_string(), expected)));
-        }
-    }
-    Ok(())
 }
