@@ -1,6 +1,6 @@
 //! The figures of an experiment, checked.
 
-use super::Study;
+use super::{Study, panel};
 use crate::{
     error::{Complaint, one_of},
     spec::{FigureSpec, PanelSpec, Spec},
@@ -66,56 +66,39 @@ pub(super) fn check(
                 let expected = one_of(&panel.show, SHOWS);
                 return Err(Complaint::new(key("show"), format!("`{}`", panel.show), expected));
             }
-            extras(panel, figure, studies)
-                .map_err(|c| c.under(&format!("figure[{i}].panel[{p}]")))?;
-            let shown = panel.study.as_ref().or(figure.study.as_ref());
-            let plant = studies.iter().any(|s| Some(&s.name) == shown && s.plant.is_some());
-            let bare = ["step-time", "steady-force"].contains(&panel.show.as_str());
-            let imposed = panel.show.starts_with("force-") && panel.show != "force-time";
-            if !plant && !imposed && !bare {
-                let found = format!("`{}` of an imposed motion", panel.show);
-                let expected = "`force-displacement` or `force-velocity`, or a study with a plant";
-                return Err(Complaint::new(key("show"), found, expected));
-            }
-            if !plant && !bare && !["settled", "from-start"].contains(&panel.from.as_str()) {
-                let expected = one_of(&panel.from, ["settled", "from-start"]);
-                return Err(Complaint::new(key("from"), format!("`{}`", panel.from), expected));
-            }
+            let under = |c: Complaint| c.under(&format!("figure[{i}].panel[{p}]"));
+            panel::check(panel, figure, studies).map_err(under)?;
+            shown(panel, figure, studies).map_err(under)?;
         }
     }
     Ok(spec.figure.clone())
 }
 
-/// What a panel draws besides the exact answer of its own study.
-fn extras(panel: &PanelSpec, figure: &FigureSpec, studies: &[Study]) -> Result<(), Complaint> {
-    let find = |name: &String| studies.iter().find(|s| s.name == *name);
-    for name in &panel.also {
-        let known = studies.iter().map(|s| s.name.as_str());
-        find(name)
-            .ok_or_else(|| Complaint::new("also", format!("`{name}`"), one_of(name, known)))?;
+/// Whether what a panel shows is there to be shown: of a plant its histories, else forces.
+fn shown(panel: &PanelSpec, figure: &FigureSpec, studies: &[Study]) -> Result<(), Complaint> {
+    let name = panel.study.as_ref().or(figure.study.as_ref());
+    let plant = studies.iter().any(|s| Some(&s.name) == name && s.plant.is_some());
+    let bare = ["step-time", "steady-force"].contains(&panel.show.as_str());
+    let imposed = panel.show.starts_with("force-") && panel.show != "force-time";
+    if !plant && !imposed && !bare {
+        let found = format!("`{}` of an imposed motion", panel.show);
+        let expected = "`force-displacement` or `force-velocity`, or a study with a plant";
+        return Err(Complaint::new("show", found, expected));
     }
-    if panel.show == "steady-force"
-        && let Some(study) = panel.study.as_ref().or(figure.study.as_ref()).and_then(find)
-        && study.model.name != "lugre"
-    {
-        let found = format!("`{}`, whose model is {}", study.name, study.model.name);
-        return Err(Complaint::new("study", found, "a study of the lugre model, for equation 21"));
+    if !plant && !bare && !["settled", "from-start"].contains(&panel.from.as_str()) {
+        let expected = one_of(&panel.from, ["settled", "from-start"]);
+        return Err(Complaint::new("from", format!("`{}`", panel.from), expected));
     }
-    for (i, run) in panel.runs.iter().enumerate() {
-        let under = |c: Complaint| c.under(&format!("runs[{i}]"));
-        let solvers = super::study::solvers(std::slice::from_ref(&run.solver)).map_err(under)?;
-        super::study::corners(std::slice::from_ref(&run.corners)).map_err(under)?;
-        let [solver] = solvers[..] else {
-            return Err(under(Complaint::new("solver", &run.solver, "one solver, no set")));
-        };
-        let (range, expected) = if super::fixed_step(solver) {
-            (1.0..=1e6, "steps per period, from 1 to 1e6")
-        } else {
-            (1e-14..=0.5, "a relative tolerance, from 1e-14 to 0.5")
-        };
-        if !range.contains(&run.value) {
-            return Err(under(Complaint::new("value", run.value.to_string(), expected)));
+    for (key, given) in [("also", !panel.also.is_empty()), ("runs", !panel.runs.is_empty())] {
+        if plant && given {
+            return Err(Complaint::new(key, "a list", "none in a panel of a plant"));
         }
+    }
+    if let Some([from, to]) = panel.between
+        && !(plant && from < to)
+    {
+        let expected = "a time and a later one [s], in a panel of a plant";
+        return Err(Complaint::new("between", format!("[{from}, {to}]"), expected));
     }
     Ok(())
 }

@@ -4,6 +4,7 @@ mod answer;
 mod figures;
 mod input;
 mod judged;
+mod panel;
 mod study;
 mod sweep;
 

@@ -83,7 +83,7 @@ fn cheapest<'b>(cases: impl Iterator<Item = &'b CaseRow>, bound: f64) -> Option<
 /// What a run was told, as in `rtol 10⁻⁶, corners ignored`.
 fn told(case: &CaseRow) -> String {
     let control = match case.control.as_str() {
-        "step" => format!("{} steps per period", number::short(case.value)),
+        "step" => format!("{} steps per period or run", number::short(case.value)),
         other => format!("{other} {}", number::short(case.value)),
     };
     format!("{control}, {}", crate::select::corners_in_words(&case.corners))

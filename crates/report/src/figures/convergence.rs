@@ -7,12 +7,16 @@ use super::{Drawing, of_charts};
 use crate::plot::{Axis, Chart, Guide, LaneRow, Line, Look};
 use crate::select::{SOLVED, Selection, by_solver, corners_in_words, select};
 use crate::{ReportError, number};
-use record::{CaseRow, FigureRow, Summary};
+use record::{CaseRow, FigureRow, StudyRow, Summary};
 
 /// The figure.
 pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, ReportError> {
     let cases = select(figure, summary, Some("step"));
-    let x = Axis::values("steps per period", cases.cases.iter().map(|c| c.value).collect());
+    // A study over a span of seconds counts its steps over all of it.
+    let whole = |row: &&StudyRow| row.study == figure.study && row.period == row.span;
+    let run = summary.studies.iter().any(|row| whole(&row));
+    let label = if run { "steps over the run" } else { "steps per period" };
+    let x = Axis::values(label, cases.cases.iter().map(|c| c.value).collect());
     let mut slopes: Vec<u64> = cases
         .orders
         .iter()

@@ -142,6 +142,9 @@ fn sparse(places: &[(f64, f64)], n: usize) -> Vec<(f64, f64)> {
     marks
 }
 
+/// The least room between two labels of an axis [px].
+const APART: f64 = 6.0;
+
 /// Where things stand in a panel [px].
 struct Frame {
     left: f64,
@@ -244,19 +247,35 @@ impl Chart {
             canvas.line(&[(left - 3.0, y), (left, y)], Ink::Axis)?;
         }
         let mut free = f64::NEG_INFINITY;
-        let mut ticks = self.x.ticks(6);
-        ticks.sort_by(|a, b| self.x.share(a.0).total_cmp(&self.x.share(b.0)));
-        for (value, text) in ticks {
+        for (value, text) in self.ticks_that_fit(frame) {
             let x = frame.place((value, self.y.from)).0;
             canvas.line(&[(x, top), (x, bottom)], Ink::Grid)?;
             canvas.line(&[(x, bottom), (x, bottom + 4.0)], Ink::Axis)?;
             let half = labels::width(&text) / 2.0;
             if x - half > free {
                 canvas.text(&text, (x, bottom + 14.0), Side::Middle, Ink::Text)?;
-                free = x + half + 1.0;
+                free = x + half + APART;
             }
         }
         canvas.line(&[(left, top), (left, bottom), (right, bottom)], Ink::Axis)
+    }
+
+    /// The ticks of the horizontal axis from left to right, so many that their labels stand apart.
+    fn ticks_that_fit(&self, frame: &Frame) -> Vec<(f64, String)> {
+        let sorted = |most| {
+            let mut ticks = self.x.ticks(most);
+            ticks.sort_by(|a, b| self.x.share(a.0).total_cmp(&self.x.share(b.0)));
+            ticks
+        };
+        let apart = |ticks: &[(f64, String)]| {
+            ticks.windows(2).all(|pair| {
+                let at = |tick: &(f64, String)| frame.place((tick.0, self.y.from)).0;
+                let room = 0.5 * (labels::width(&pair[0].1) + labels::width(&pair[1].1)) + APART;
+                at(&pair[1]) - at(&pair[0]) >= room
+            })
+        };
+        let fitting = (2..=6).rev().map(sorted).find(|ticks| ticks.len() > 1 && apart(ticks));
+        fitting.unwrap_or_else(|| sorted(6))
     }
 
     fn draw_guides(&self, canvas: &Canvas, frame: &Frame) -> Result<(), Fault> {
