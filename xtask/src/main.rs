@@ -42,7 +42,7 @@ fn run(cli: &Cli) -> Result<Exit, Failure> {
         Command::Show { name, json } => list::show(&root, name, *json),
         Command::Claims { markdown: true, .. } => claims::markdown(&root),
         Command::Claims { json, .. } => claims::claims(&root, *json),
-        Command::Bench { what: Bench::Properties(arguments) } => bench::properties(arguments),
+        Command::Bench { what: Bench::Properties(arguments) } => Ok(bench::properties(arguments)),
         Command::New { what } => new::new(&root, what),
         Command::Tidy { equations: true, .. } => tidy::equations(&root),
         Command::Tidy { json, .. } => tidy::tidy(&root, *json),

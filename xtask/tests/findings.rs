@@ -235,11 +235,18 @@ fn the_winners_are_those_that_the_captions_name() {
 }
 
 #[test]
-fn every_measure_has_a_second_parent_within_a_billionth() {
+fn every_measure_has_a_second_parent_as_near_as_it_must_be() {
     for path in experiments() {
         for row in tables(&path).measures {
-            let relative = row.error / row.value.abs();
-            assert!(relative <= 1e-9, "{}: {} ± {}", row.id, row.value, row.error);
+            // What a plant was solved for is good to a micrometre or a microsecond, and a count is exact.
+            let solved = row.method.starts_with("the plant solved");
+            let count = ["fig15.slips", "fig22.full-slips"].contains(&row.id.as_str());
+            let bound = match (count, solved) {
+                (true, _) => 0.0,
+                (_, true) => 1e-6,
+                _ => 1e-9 * row.value.abs(),
+            };
+            assert!(row.error <= bound, "{}: {} ± {}", row.id, row.value, row.error);
             assert!(
                 !row.second.is_empty() && row.second != row.method,
                 "{}: no second way",

@@ -5,11 +5,22 @@
 
 mod common;
 
-use common::{Project, REAL};
+use common::Project;
+use std::{fs, path::Path};
 
 #[test]
 fn the_tables_of_one_processor_pass_the_check_on_another() {
-    let project = Project::new(&[("dahl-gamma-sweep.toml", REAL)]);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments");
+    let mut all = Vec::new();
+    for entry in fs::read_dir(folder).expect("experiments/") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|e| e == "toml") {
+            let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+            all.push((name, fs::read_to_string(&path).expect("an experiment")));
+        }
+    }
+    let all: Vec<(&str, &str)> = all.iter().map(|(n, t)| (n.as_str(), t.as_str())).collect();
+    let project = Project::new(&all);
     let ran = project.run(&["reproduce"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
     let output = project

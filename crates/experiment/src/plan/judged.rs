@@ -102,6 +102,36 @@ pub(super) struct Judged {
 }
 
 pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint> {
+    let measures = measures(spec, studies)?;
+    let mut claims = Vec::new();
+    for (i, written) in spec.claim.iter().enumerate() {
+        for id in crate::judge::placeholders(&written.why) {
+            known(spec, id).map_err(|c| c.under(&format!("claim[{i}].why")))?;
+        }
+        if !written.figure.is_empty() && !spec.figure.iter().any(|f| f.name == written.figure) {
+            let known = spec.figure.iter().map(|f| f.name.as_str());
+            let expected = one_of(&written.figure, known);
+            let key = format!("claim[{i}].figure");
+            return Err(Complaint::new(key, format!("`{}`", written.figure), expected));
+        }
+        let claim = claim(written, &measures, studies);
+        claims.push(claim.map_err(|c| c.under(&format!("claim[{i}]")))?);
+    }
+    let mut seen = BTreeSet::new();
+    if let Some(i) = spec.claim.iter().position(|c| !super::plain(&c.id) || !seen.insert(&c.id)) {
+        let found = format!("`{}`", spec.claim[i].id);
+        return Err(Complaint::new(format!("claim[{i}].id"), found, "a plain id of its own"));
+    }
+    let mut rules = Vec::new();
+    for (i, written) in spec.irreproducible.iter().enumerate() {
+        let rule = irreproducible(written, studies);
+        rules.push(rule.map_err(|c| c.under(&format!("irreproducible[{i}]")))?);
+    }
+    Ok(Judged { measures, claims, irreproducible: rules })
+}
+
+/// The quantities to measure, each looked up for its study's model.
+fn measures(spec: &Spec, studies: &[Study]) -> Result<Vec<Measure>, Complaint> {
     let mut measures: Vec<Measure> = Vec::new();
     for (i, written) in spec.measure.iter().enumerate() {
         let under = |c: Complaint| c.under(&format!("measure[{i}]"));
@@ -138,31 +168,7 @@ pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint>
         let (id, unit) = (written.id.clone(), written.unit.clone());
         measures.push(Measure { id, unit, subject, quantity });
     }
-    let mut claims = Vec::new();
-    for (i, written) in spec.claim.iter().enumerate() {
-        for id in crate::judge::placeholders(&written.why) {
-            known(spec, id).map_err(|c| c.under(&format!("claim[{i}].why")))?;
-        }
-        if !written.figure.is_empty() && !spec.figure.iter().any(|f| f.name == written.figure) {
-            let known = spec.figure.iter().map(|f| f.name.as_str());
-            let expected = one_of(&written.figure, known);
-            let key = format!("claim[{i}].figure");
-            return Err(Complaint::new(key, format!("`{}`", written.figure), expected));
-        }
-        let claim = claim(written, &measures, studies);
-        claims.push(claim.map_err(|c| c.under(&format!("claim[{i}]")))?);
-    }
-    let mut seen = BTreeSet::new();
-    if let Some(i) = spec.claim.iter().position(|c| !super::plain(&c.id) || !seen.insert(&c.id)) {
-        let found = format!("`{}`", spec.claim[i].id);
-        return Err(Complaint::new(format!("claim[{i}].id"), found, "a plain id of its own"));
-    }
-    let mut rules = Vec::new();
-    for (i, written) in spec.irreproducible.iter().enumerate() {
-        let rule = irreproducible(written, studies);
-        rules.push(rule.map_err(|c| c.under(&format!("irreproducible[{i}]")))?);
-    }
-    Ok(Judged { measures, claims, irreproducible: rules })
+    Ok(measures)
 }
 
 /// Whether a text may ask for this measure's value.

@@ -178,7 +178,7 @@ impl<'a> View<'a> {
     }
 
     /// How often the motion turns while every element slips: all deflections at their deadbands.
-    pub(crate) fn full_slips(&self) -> Result<f64, String> {
+    pub(crate) fn full_slips(&self) -> f64 {
         let delta = self.motion.model().scale();
         let mut y = vec![0.0; self.path.states()];
         let mut count = 0.0;
@@ -191,7 +191,7 @@ impl<'a> View<'a> {
                 count += 1.0;
             }
         }
-        Ok(count)
+        count
     }
 }
 

@@ -210,7 +210,7 @@ quantity!(
     "1",
     "reversals out of a state in which all elements slip",
     &[],
-    |plan, subject| exact(both(plan, subject, |view| view.full_slips()))
+    |plan, subject| exact(both(plan, subject, |view| Ok(view.full_slips())))
 );
 
 quantity!(
