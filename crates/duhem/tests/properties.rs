@@ -359,3 +359,21 @@ fn above_its_speed_lugre_gives_energy_back_and_without_a_stribeck_effect_it_does
     assert!(lost > 0.0, "{lost} J");
     assert!(lugre::dissipation(&of_the_paper(), 1.5e-5, 0.0143) < 0.0);
 }
+
+#[test]
+fn on_an_open_path_the_springs_give_back_what_they_stored() {
+    // So that a loss on every closed loop says something: on the way back to zero force there is none.
+    let slip = MaxwellSlip { k: vec![2.0], delta: vec![0.25] };
+    assert!((maxwell_slip::work(&slip, &[0.25], -0.25) + 0.0625).abs() < 1e-15);
+    let dahl = Dahl { f_c: 0.75, sigma: 1.5, gamma: 1.0 };
+    assert!(dahl::work(&dahl, 0.5, -0.1) < -0.03);
+}
+
+#[test]
+fn equation_24_as_printed_is_not_its_own_mirror_image_at_the_deadband() {
+    let slip = MaxwellSlip { k: vec![2.0], delta: vec![0.25] };
+    let (mut up, mut down) = ([0.0], [0.0]);
+    slip.x_dot_as_printed(&[-0.25], 0.0, 1.0, &mut up);
+    slip.x_dot_as_printed(&[0.25], 0.0, -1.0, &mut down);
+    assert_eq!((up, down), ([1.0], [0.0]), "m/s");
+}
