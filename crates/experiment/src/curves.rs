@@ -7,7 +7,10 @@ use crate::{
     solved::solved,
     spec::{FigureSpec, PanelSpec, RunSpec},
 };
-use duhem::{FrictionModel, LuGre};
+use duhem::{
+    Dahl, FrictionModel, LuGre,
+    closed_form::dahl::settling::{Contact, HeldMass},
+};
 use integrate::Corners;
 use record::{CurveRow, PanelRow};
 
@@ -15,6 +18,8 @@ use record::{CurveRow, PanelRow};
 const PER_ARC: u32 = 100;
 /// Stretches of time that a plant's curve is cut into.
 const STRETCHES: u32 = 600;
+/// The largest number of swings that is drawn, as a power of two.
+const SWINGS: u32 = 16;
 /// The share of an axis below which nobody sees a difference.
 const SEEN: f64 = 2e-3;
 /// Periods after which a loop is the limit cycle to more digits than a figure shows.
@@ -31,6 +36,7 @@ pub(crate) fn curves(
             panels.push(axes(figure, panel));
             let drawn = match panel.show.as_str() {
                 "step-time" => steps(plan, figure, panel, finished)?,
+                "rest-swings" => settling(plan, figure, panel)?,
                 _ if of_plant(plan, figure, panel)? => plants(plan, figure, panel)?,
                 "steady-force" => steady(plan, figure, panel)?,
                 _ => forces(plan, figure, panel)?,
@@ -62,7 +68,7 @@ fn axes(figure: &FigureSpec, panel: &PanelSpec) -> PanelRow {
         x_max: panel.x_range[1],
         y_min: panel.y_range[0],
         y_max: panel.y_range[1],
-        x_log: false,
+        x_log: panel.x_log,
         y_log: panel.y_log,
     }
 }
@@ -79,6 +85,26 @@ fn shown<'a>(
         if figure.study.as_ref() == Some(name) { figure.select.clone() } else { <_>::default() };
     let points = study.selected(&select).map_err(|c| c.found)?;
     Ok((index, study, points))
+}
+
+/// The friction at the rest that a swinging mass is nearest to, |F|/F_C over the number of swings, from
+/// turning points of several forces at F_e = 0.
+fn settling(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series, String> {
+    let (_, _, points) = shown(plan, figure, panel)?;
+    let point = points.first().ok_or("no point of the sweep")?;
+    let dahl = Dahl::new(&point.parameters).map_err(|e| e.to_string())?;
+    let stiffness = point.plant.ok_or("an imposed motion where a plant is needed")?.stiffness;
+    let held = HeldMass { dahl, stiffness, drive: 0.0 };
+    let from = |share: f64| {
+        let start = Contact { q: 2.0 * held.dahl.f_c / stiffness, force: share * held.dahl.f_c };
+        let at = |n: u32| {
+            let rest = held.settle(start, 1 << n).rest.force;
+            (f64::from(1_u32 << n), rest.abs() / held.dahl.f_c)
+        };
+        (0..=SWINGS).map(at).collect()
+    };
+    let starts = [("from F = −F_C", -1.0), ("from F = 0", 0.0), ("from F = 0.9 F_C", 0.9)];
+    Ok(starts.map(|(name, share)| (name.to_owned(), from(share))).into())
 }
 
 fn of_plant(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<bool, String> {

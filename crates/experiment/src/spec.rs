@@ -160,6 +160,9 @@ pub struct PanelSpec {
     pub x_range: [f64; 2],
     /// The ends of the vertical axis.
     pub y_range: [f64; 2],
+    /// Whether the horizontal axis is logarithmic.
+    #[serde(default)]
+    pub x_log: bool,
     /// Whether the vertical axis is logarithmic.
     #[serde(default)]
     pub y_log: bool,

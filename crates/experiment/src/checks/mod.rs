@@ -58,6 +58,7 @@ pub const CHECKS: &[Check] = &[
     dahl::FINITE_SATURATION,
     energy::ORIENTATION,
     plant::SETTLES_AT_F_C,
+    plant::COMES_TO_REST,
     plant::STAIRCASE,
     plant::SAME_SLIP,
     plant::TOGETHER,

@@ -6,9 +6,11 @@ use crate::{
     quantities::{RINGING, View},
 };
 use duhem::{
-    Dahl, Parameter, Rig,
+    Dahl, Input, LuGre, Parameter, Rig,
     closed_form::dahl::settling::{Contact, HeldMass},
 };
+use integrate::Outcome;
+use simulation::{DrivenPlant, plant_reference::solve_located};
 
 macro_rules! check {
     ($(#[$doc:meta])* $const:ident, $name:literal, $model:literal, $takes:expr, $many:literal, $run:ident) => {
@@ -28,6 +30,10 @@ macro_rules! check {
 check!(
     /// Where the mass settles at constant forces, from many states: at F = ±F_C, as the paper says?
     SETTLES_AT_F_C, "settles-at-f-c", "dahl", &[], false, settles_at_f_c
+);
+check!(
+    /// Whether the mass comes to rest at constant forces, from many states, and where.
+    COMES_TO_REST, "comes-to-rest", "lugre", &[], false, comes_to_rest
 );
 check!(
     /// Whether nearly all of the way is made in slips.
@@ -58,6 +64,9 @@ check!(
     RESTS, "rests", "", &["below"], false, rests
 );
 
+/// Time after which a mass with LuGre friction is looked at again [s], and how far it may have crept by then,
+/// as a share of the deflection that breaks away.
+const SETTLED: (f64, f64) = (100.0, 1e-3);
 /// Swings after which the mass is near its rest.
 const SWINGS: usize = 3000;
 /// A force this near to F_C counts as F_C, and the first slip so near to another counts as the same.
@@ -121,6 +130,49 @@ fn settles_at_f_c(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
             "largest |F|/F_C near rest, after {SWINGS} swings by the energy balance between turning points \
              (which the mass does not enter), over {count} combinations of constant force and initial state that is no \
              rest; the smallest is {least:.1e}; at F = ±F_C to 1 % come to rest {near} of them"
+        ),
+    })
+}
+
+fn comes_to_rest(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
+    let (study, point) = one(plan, subject)?;
+    let lugre = LuGre::new(&study.points[point].parameters).map_err(|e| e.to_string())?;
+    let plant = study.points[point].plant.ok_or("no plant")?;
+    let amplitude = plant.drive(study.input.range().1);
+    let largest = lugre.f_s / lugre.sigma_0;
+    let (mut crept, mut least, mut most, mut count) = (0.0_f64, f64::INFINITY, 0.0_f64, 0);
+    for force in [-0.6, -0.1, 0.0, 0.3, 1.0] {
+        let drive = force * amplitude;
+        let input =
+            Input::sampled(vec![0.0, 1.0], vec![drive, drive]).map_err(|e| e.to_string())?;
+        let span = (0.0, 2.0 * SETTLED.0);
+        let motion = DrivenPlant::new(study.model_at(&study.points[point])?, plant, input, span);
+        for displaced in [-2.0, -0.5, 0.5, 3.0] {
+            for (v, x) in [(0.0, 0.0), (0.0, 0.9), (0.3, -0.5), (-1.0, 0.0)] {
+                let q = (drive + displaced * lugre.f_s) / plant.stiffness;
+                let located = solve_located(&motion, &[q, v, x * largest], 1e-9);
+                if located.outcome != Outcome::Solved {
+                    return Err(format!("a run at a constant force: {}", located.outcome));
+                }
+                let path = &located.path;
+                crept = crept.max((path.q(2.0 * SETTLED.0) - path.q(SETTLED.0)).abs() / largest);
+                let rest = (drive - plant.stiffness * path.q(2.0 * SETTLED.0)).abs();
+                (least, most, count) = (least.min(rest), most.max(rest), count + 1);
+            }
+        }
+    }
+    Ok(Checked {
+        holds: crept < SETTLED.1,
+        value: Some(crept),
+        error: None,
+        unit: "1",
+        how: format!(
+            "largest creep between {} and {} s in units of F_S/σ₀, over {count} combinations of constant force \
+             and initial state; it rests if below {}. The friction at rest is between {least:.3} and {most:.3} N \
+             in size",
+            SETTLED.0,
+            2.0 * SETTLED.0,
+            SETTLED.1
         ),
     })
 }

@@ -8,7 +8,7 @@ use crate::{
 
 /// What a panel may show: the vertical quantity, then the horizontal one. Of a plant, `drive` is the force
 /// (or torque) that its input makes.
-pub(crate) const SHOWS: [&str; 9] = [
+pub(crate) const SHOWS: [&str; 10] = [
     "force-displacement",
     "force-velocity",
     "force-time",
@@ -17,6 +17,7 @@ pub(crate) const SHOWS: [&str; 9] = [
     "displacement-drive",
     "drive-time",
     "steady-force",
+    "rest-swings",
     "step-time",
 ];
 
