@@ -73,18 +73,10 @@ impl<'a> View<'a> {
     }
 
     /// The largest value over a span for `side` 1, the smallest for −1.
-    pub(crate) fn extreme(
-        &self,
-        (from, to): (f64, f64),
-        side: f64,
-        of: impl Fn(f64) -> f64,
-    ) -> f64 {
-        let value = |t: f64| side * of(t);
-        let grid = self.grid((from, to));
-        let values: Vec<f64> = grid.iter().map(|t| value(*t)).collect();
-        let best = (0..grid.len()).max_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
-        let (low, high) = (grid[best.saturating_sub(1)], grid[(best + 1).min(grid.len() - 1)]);
-        side * golden((low, high), &value).max(values[best])
+    pub(crate) fn extreme(&self, span: (f64, f64), side: f64, of: impl Fn(f64) -> f64) -> f64 {
+        let inside = self.path.largest(span, |t| side * of(t));
+        let ends = (side * of(span.0)).max(side * of(span.1));
+        side * inside.map_or(ends, |(_, largest)| largest.max(ends))
     }
 
     /// The nodes of a span with points between them.
@@ -138,14 +130,9 @@ impl<'a> View<'a> {
     /// The slips, in order: |v| rises through v_S, and not because the contact still rings.
     pub(crate) fn slips(&self) -> Result<Vec<Slip>, String> {
         let v_s = self.v_s.ok_or("slips are told by v_S, which the model has not")?;
-        let over = |t: f64| self.v(t).abs() - v_s;
         let turns = self.path.reversals();
         let mut slips: Vec<Slip> = Vec::new();
-        for pair in self.path.t().windows(2) {
-            if !(over(pair[0]) <= 0.0 && over(pair[1]) > 0.0) {
-                continue;
-            }
-            let onset = crossing((pair[0], pair[1]), &over);
+        for onset in self.path.onsets(v_s) {
             if slips.last().is_some_and(|s| onset < s.stop + RINGING) {
                 continue;
             }
@@ -193,27 +180,6 @@ impl<'a> View<'a> {
         }
         count
     }
-}
-
-/// Where `of` rises through zero in a bracket, to the last digit.
-fn crossing((mut low, mut high): (f64, f64), of: &dyn Fn(f64) -> f64) -> f64 {
-    loop {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            return high;
-        }
-        if of(middle) > 0.0 { high = middle } else { low = middle }
-    }
-}
-
-/// The largest value in a bracket with one maximum, by golden section.
-fn golden((mut low, mut high): (f64, f64), of: &dyn Fn(f64) -> f64) -> f64 {
-    const SHARE: f64 = 0.381_966_011_250_105_1;
-    for _ in 0..60 {
-        let (a, b) = (low + SHARE * (high - low), high - SHARE * (high - low));
-        if of(a) < of(b) { low = a } else { high = b }
-    }
-    of(0.5 * (low + high))
 }
 
 #[cfg(test)]
