@@ -116,12 +116,11 @@ fn case(field: &str, row: &Row) -> Tolerance {
         // What chatters or meets a kink untold still has an error and a cost of some size; the error at one
         // moment of a motion that rings has none.
         "error_max" | "error_l2" | "error_away" if irreproducible(row) => Within(1e3),
-        "error_final" if irreproducible(row) => Ignored,
         "evaluations" | "jacobians" | "accepted" | "rejected" if irreproducible(row) => {
             Within(10.0)
         }
         "reached" if irreproducible(row) => Close { relative: 0.0, absolute: 0.1 },
-        "digits" | "order" | "detail" if irreproducible(row) => Ignored,
+        "error_final" | "digits" | "order" | "detail" if irreproducible(row) => Ignored,
         "error_final" | "error_max" | "error_l2" | "error_away" => RESULT,
         // They are logarithms of errors, and of nothing near round-off.
         "digits" | "order" if error < 1e-9 => Ignored,
