@@ -74,9 +74,8 @@ impl<'a> View<'a> {
 
     /// The largest value over a span for `side` 1, the smallest for −1.
     pub(crate) fn extreme(&self, span: (f64, f64), side: f64, of: impl Fn(f64) -> f64) -> f64 {
-        let inside = self.path.largest(span, |t| side * of(t));
-        let ends = (side * of(span.0)).max(side * of(span.1));
-        side * inside.map_or(ends, |(_, largest)| largest.max(ends))
+        let found = self.path.largest(span, |t| side * of(t));
+        side * found.map_or_else(|| side * of(span.0), |(_, largest)| largest)
     }
 
     /// The nodes of a span with points between them.
