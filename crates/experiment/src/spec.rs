@@ -126,6 +126,9 @@ pub struct FigureSpec {
     pub solvers: Vec<String>,
     /// The one control value to show, for kinds that need one.
     pub value: Option<f64>,
+    /// Whether it stands aside, for a reader who wants more than the paper's own figures.
+    #[serde(default)]
+    pub aside: bool,
     /// The panels, for figures of curves.
     #[serde(default)]
     pub panel: Vec<PanelSpec>,

@@ -105,5 +105,6 @@ fn figure_row(plan: &Plan, figure: &FigureSpec, measures: &[MeasureRow]) -> Figu
         points,
         solvers: solver_names(&figure.solvers).join(";"),
         value: figure.value,
+        aside: figure.aside,
     }
 }

@@ -198,6 +198,8 @@ table! {
         solvers: String = "solvers",
         /// The one control value to show, for kinds that need one.
         value: Option<f64> = "value",
+        /// Whether it stands aside: for a reader who wants more than the paper's own figures.
+        aside: bool = "aside",
     }
 }
 
