@@ -8,7 +8,7 @@ use std::path::PathBuf;
 /// Exit codes: 0 done; 1 a check failed; 2 usage; 3 regression; 4 bad input; 5 interrupted, everything
 /// resumable; 6 disk or environment; 70 a bug in the project.
 #[derive(Debug, Parser)]
-#[command(name = "cargo xtask", bin_name = "cargo xtask", disable_help_subcommand = true)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", version, disable_help_subcommand = true)]
 pub(crate) struct Cli {
     /// The project's folder; found from the current one if not given.
     #[arg(long, global = true, value_name = "DIR")]

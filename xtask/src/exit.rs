@@ -55,7 +55,7 @@ impl From<ExperimentError> for Failure {
     fn from(error: ExperimentError) -> Self {
         let exit = match error {
             ExperimentError::Record(inner) => return inner.into(),
-            ExperimentError::Spec { .. } => Exit::Input,
+            ExperimentError::Spec { .. } | ExperimentError::Unanswered { .. } => Exit::Input,
             ExperimentError::Interrupted { .. } => Exit::Interrupted,
             ExperimentError::Environment(_) => Exit::Environment,
             ExperimentError::Bug(_) => Exit::Bug,

@@ -27,6 +27,8 @@ pub(crate) fn list(root: &Path, as_json: bool) -> Result<Exit, Failure> {
             .map(|(name, title, paper, cases)| json!({ "name": name, "title": title, "paper": paper, "cases": cases }))
             .collect();
         output::line(&format!("{:#}", json!({ "format": record::FORMAT, "experiments": rows })));
+    } else if rows.is_empty() {
+        output::note("no experiments: `cargo xtask new experiment NAME` makes one");
     } else {
         for (name, title, paper, cases) in rows {
             output::line(&format!("{name}  {title} ({paper}), {cases} cases"));

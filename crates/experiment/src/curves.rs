@@ -20,6 +20,8 @@ const PER_ARC: u32 = 100;
 const STRETCHES: u32 = 600;
 /// The largest number of swings that is drawn, as a power of two.
 const SWINGS: u32 = 16;
+/// Parts into which a stretch is cut over which the value changes visibly: a slip lasts seconds of hours.
+const PARTS: u32 = 24;
 /// The share of an axis below which nobody sees a difference.
 const SEEN: f64 = 2e-3;
 /// Periods after which a loop is the limit cycle to more digits than a figure shows.
@@ -139,7 +141,10 @@ fn plants(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series,
         for i in 0..STRETCHES {
             let (t, next) = (at(i), at(i + 1));
             drawn.push((x(t), y(t)));
-            if panel.show.ends_with("-time") {
+            if (y(next) - y(t)).abs() > 15.0 * visible {
+                let within = (1..PARTS).map(|i| t + (next - t) * f64::from(i) / f64::from(PARTS));
+                drawn.extend(within.map(|t| (x(t), y(t))));
+            } else if panel.show.ends_with("-time") {
                 let ends = view.ends((t, next), &y);
                 let beyond = |end: &f64| (end - y(t)).abs().min((end - y(next)).abs()) > visible;
                 if ends.iter().any(beyond) {

@@ -23,6 +23,18 @@ pub enum ExperimentError {
     /// A file could not be read or written.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// The TOML can be read, but what it asks for has no answer: found where it was solved for.
+    #[error(
+        "experiments/{experiment}.toml: {what}: found {found}; expected something that has an answer"
+    )]
+    Unanswered {
+        /// The experiment.
+        experiment: String,
+        /// The study and its point, or the measure or claim.
+        what: String,
+        /// Why there is none.
+        found: String,
+    },
     /// Asked to stop: what was finished is stored, the rest can be run again.
     #[error("interrupted after {done} of {total} cases; run the same command again to go on")]
     Interrupted {

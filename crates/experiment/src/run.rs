@@ -2,7 +2,7 @@
 
 use crate::{
     ExperimentError, compare,
-    plan::{Case, Plan, corners_name, fixed_step},
+    plan::{Case, Plan, Study, corners_name, fixed_step},
 };
 use integrate::{Control, Limits};
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
@@ -81,6 +81,7 @@ pub fn run(
         .num_threads(options.threads)
         .build()
         .map_err(|e| ExperimentError::Environment(e.to_string()))?;
+    pool.install(|| solve_plants(plan))?;
     let total = plan.cases.len();
     let (done, reused) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let one = |index: usize| {
@@ -102,6 +103,24 @@ pub fn run(
         return Err(ExperimentError::Interrupted { done: finished.len(), total });
     }
     Ok(finished)
+}
+
+/// Solves every plant before the first case: all at once, and a mistake of the TOML is told as one.
+fn solve_plants(plan: &Plan) -> Result<(), ExperimentError> {
+    let of = |study: &'_ Study| (0..study.points.len()).collect::<Vec<_>>();
+    let plants = plan.studies.iter().filter(|s| s.plant.is_some() && s.reference.is_some());
+    let all: Vec<(&Study, usize)> =
+        plants.flat_map(|study| of(study).into_iter().map(move |point| (study, point))).collect();
+    all.into_par_iter().with_max_len(1).try_for_each(|(study, point)| {
+        let unanswered = |found| ExperimentError::Unanswered {
+            experiment: plan.name.clone(),
+            what: format!("study `{}` {}", study.name, study.points[point].label)
+                .trim_end()
+                .to_owned(),
+            found,
+        };
+        study.exact(point).map(|_| ()).map_err(unanswered)
+    })
 }
 
 fn finish(plan: &Arc<Plan>, index: usize, options: &Options) -> Result<Finished, ExperimentError> {

@@ -13,9 +13,16 @@ use record::{AboutRow, CaseRow, FigureRow, MeasureRow, StudyRow, Summary};
 pub fn summary(plan: &Plan, finished: &[Finished]) -> Result<Summary, ExperimentError> {
     let mut cases: Vec<CaseRow> = finished.iter().map(|f| f.record.row.clone()).collect();
     orders::local(plan, &mut cases);
-    let measures = judge::measures(plan).map_err(ExperimentError::Bug)?;
-    let claims = judge::claims(plan, &measures).map_err(ExperimentError::Bug)?;
-    let (panels, curves) = curves::curves(plan, finished).map_err(ExperimentError::Bug)?;
+    // What has no answer was refused before anything ran, but for what had to be solved for first.
+    let unanswered = |why: String| {
+        let (what, found) = why.split_once(": ").unwrap_or(("what it asks for", &why));
+        let (what, found) = (what.to_owned(), found.to_owned());
+        ExperimentError::Unanswered { experiment: plan.name.clone(), what, found }
+    };
+    let measures = judge::measures(plan).map_err(unanswered)?;
+    let claims = judge::claims(plan, &measures).map_err(unanswered)?;
+    let (panels, curves) = curves::curves(plan, finished)
+        .map_err(|why| unanswered(format!("a figure's panel: {why}")))?;
     let studies = plan.studies.iter().map(study_row).collect::<Result<_, _>>();
     Ok(Summary {
         name: plan.name.clone(),

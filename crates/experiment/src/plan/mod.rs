@@ -138,6 +138,9 @@ impl Plan {
 fn check(name: &str, text: &str, spec: &Spec, kinds: &[&str]) -> Result<Plan, Complaint> {
     unique("study", spec.study.iter().map(|s| &s.name))?;
     unique("figure", spec.figure.iter().map(|s| &s.name))?;
+    for (key, text) in [("title", &spec.title), ("paper", &spec.paper), ("text", &spec.text)] {
+        readable(text).map_err(|c| c.under(key))?;
+    }
     if spec.study.is_empty() {
         return Err(Complaint::new("study", "none", "at least one [[study]]"));
     }
@@ -194,6 +197,18 @@ fn answerable(plan: &Plan) -> Result<(), Complaint> {
         }
     }
     Ok(())
+}
+
+/// A text that would move a terminal's cursor or turn the line round is refused.
+fn readable(text: &str) -> Result<(), Complaint> {
+    let turns = |c: char| matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    match text.chars().find(|c| turns(*c) || (c.is_control() && !"\n\t\r".contains(*c))) {
+        None => Ok(()),
+        Some(c) => {
+            let found = format!("the control character U+{:04X}", u32::from(c));
+            Err(Complaint::new("", found, "text that can be shown"))
+        }
+    }
 }
 
 fn unique<'a>(table: &str, names: impl Iterator<Item = &'a String>) -> Result<(), Complaint> {

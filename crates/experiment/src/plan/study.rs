@@ -78,6 +78,10 @@ impl Study {
             Some(name) => Some(Answers::find(name, plant.is_some(), points.len())?),
             None => None,
         };
+        if let Some(name) = reference.as_ref().map(|r| r.name).filter(|name| *name != model.name) {
+            let expected = format!("`{}`, the study's model", model.name);
+            return Err(Complaint::new("reference", format!("`{name}`"), expected));
+        }
         let study = Self {
             name: spec.name.clone(),
             title: spec.title.clone(),
