@@ -21,7 +21,7 @@ const STRETCHES: u32 = 600;
 /// The largest number of swings that is drawn, as a power of two.
 const SWINGS: u32 = 16;
 /// Parts into which a stretch is cut over which the value changes visibly: a slip lasts seconds of hours.
-const PARTS: u32 = 24;
+const PARTS: u32 = 12;
 /// The share of an axis below which nobody sees a difference.
 const SEEN: f64 = 2e-3;
 /// Periods after which a loop is the limit cycle to more digits than a figure shows.
@@ -139,15 +139,15 @@ fn plants(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series,
         let visible = SEEN * (panel.y_range[1] - panel.y_range[0]).abs();
         let mut drawn = Vec::new();
         for i in 0..STRETCHES {
-            let (t, next) = (at(i), at(i + 1));
-            drawn.push((x(t), y(t)));
-            if (y(next) - y(t)).abs() > 15.0 * visible {
-                let within = (1..PARTS).map(|i| t + (next - t) * f64::from(i) / f64::from(PARTS));
-                drawn.extend(within.map(|t| (x(t), y(t))));
-            } else if panel.show.ends_with("-time") {
+            let (from, to) = (at(i), at(i + 1));
+            let parts = if (y(to) - y(from)).abs() > 10.0 * visible { PARTS } else { 1 };
+            let part = |k: u32| from + (to - from) * f64::from(k) / f64::from(parts);
+            for k in 0..parts {
+                let (t, next) = (part(k), part(k + 1));
+                drawn.push((x(t), y(t)));
                 let ends = view.ends((t, next), &y);
                 let beyond = |end: &f64| (end - y(t)).abs().min((end - y(next)).abs()) > visible;
-                if ends.iter().any(beyond) {
+                if panel.show.ends_with("-time") && ends.iter().any(beyond) {
                     drawn.extend(ends.map(|y| (0.5 * (t + next), y)));
                 }
             }
