@@ -176,7 +176,11 @@ fn forces(plan: &Plan, figure: &FigureSpec, panel: &PanelSpec) -> Result<Series,
             } else {
                 (0.0, study.span)
             };
-            let path = path(study, point, span)?;
+            let mut path = path(study, point, span)?;
+            // A settled loop is closed, also where the force jumps with the speed.
+            if panel.from == "settled" {
+                path.extend(path.first().copied());
+            }
             series.push((pretty(&point.label, study), path.into_iter().map(xy).collect()));
         }
         for run in &panel.runs {
