@@ -59,11 +59,11 @@ pub(crate) const HELD: &str = "What holds";
 const VERDICTS: [&str; 4] = ["reproduced", "contradicted", "under-specified", "qualitative"];
 
 /// The verdicts of these claims, counted; `are` stands behind the first number.
-fn verdicts<'a>(claims: impl Iterator<Item = &'a ClaimRow> + Clone, are: bool) -> String {
-    let count = |kind: &str| claims.clone().filter(|claim| claim.verdict == kind).count();
+fn verdicts(claims: &[&ClaimRow], are: bool) -> String {
+    let count = |kind: &str| claims.iter().filter(|claim| claim.verdict == kind).count();
     let mut counts: Vec<(usize, &str)> = VERDICTS.iter().map(|kind| (count(kind), *kind)).collect();
     let known: usize = counts.iter().map(|(n, _)| n).sum();
-    counts.push((claims.clone().count() - known, "judged otherwise"));
+    counts.push((claims.len() - known, "judged otherwise"));
     counts.retain(|(n, _)| *n > 0);
     let told = |(i, (n, kind)): (usize, &(usize, &str))| match (are && i == 0, n) {
         (true, 1) => format!("1 is {kind}"),
@@ -77,12 +77,13 @@ fn verdicts<'a>(claims: impl Iterator<Item = &'a ClaimRow> + Clone, are: bool) -
 
 /// What the front says first: how many claims the paper makes, and what became of them.
 pub(crate) fn tally(claims: &[&ClaimRow]) -> String {
-    let paper = claims.iter().copied().filter(|claim| Part::of(claim) != Part::Ours);
-    let (total, ours) = (paper.clone().count(), claims.len() - paper.clone().count());
-    let first = match total {
+    let of_paper = |claim: &&ClaimRow| Part::of(claim) != Part::Ours;
+    let paper: Vec<&ClaimRow> = claims.iter().copied().filter(of_paper).collect();
+    let ours = claims.len() - paper.len();
+    let first = match paper.len() {
         0 => "No claim of the paper is tested here.".to_owned(),
-        1 => format!("Of 1 claim of the paper, {}.", verdicts(paper, true)),
-        n => format!("Of {n} claims of the paper, {}.", verdicts(paper, true)),
+        1 => format!("Of 1 claim of the paper, {}.", verdicts(&paper, true)),
+        n => format!("Of {n} claims of the paper, {}.", verdicts(&paper, true)),
     };
     match ours {
         0 => first,
@@ -93,7 +94,7 @@ pub(crate) fn tally(claims: &[&ClaimRow]) -> String {
 
 /// The line before the claims that are not decided: their verdicts, counted.
 pub(crate) fn undecided(claims: &[(&Chapter, &ClaimRow)]) -> String {
-    verdicts(claims.iter().map(|(_, claim)| *claim), false)
+    verdicts(&claims.iter().map(|(_, claim)| *claim).collect::<Vec<_>>(), false)
 }
 
 /// A verdict's sign, told apart without colour.

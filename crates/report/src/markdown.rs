@@ -1,6 +1,6 @@
 //! The same as Markdown, one sentence per line.
 
-use crate::across::{Across, MAP, NAME, READS, TITLE};
+use crate::across::{Across, COUNTED, MAP, NAME, READS, TITLE};
 use crate::chapter::{Chapter, Figure, PAPER, heading, told};
 use crate::claims::{
     HELD, OPEN, Part, decided, few_held, in_short, of_part, ours, sign, tally, undecided,
@@ -128,6 +128,8 @@ fn folded(line: &str, inside: &str) -> String {
 fn solvers(out: &mut String, across: &Across) {
     put!(out, "\n## {TITLE}\n");
     across.text.iter().for_each(|text| out.push_str(&paragraphs(text)));
+    let counted: String = across.counted.iter().map(|text| paragraphs(text)).collect();
+    out.push_str(&folded(COUNTED, &counted));
     put!(out, "\n![{MAP}]({NAME}.svg)\n{}\n[Data]({NAME}.csv)\n", paragraphs(READS));
     for table in &across.tables {
         let inside = format!("{}\n{}", paragraphs(&table.reads), table.grid.markdown());

@@ -78,13 +78,17 @@ fn a_run_that_said_solved_and_was_not_is_counted_and_one_that_failed_is_not() {
         row(front, "rk4"),
         ["rk4", "3/3", "1/1", "1/1", "0/1", "13\u{202f}×", "1.7\u{202f}×", "1", "–"]
     );
-    let worst = front.split("### The worst silent failures").nth(1).unwrap();
+    let worst = front.split("<summary>The worst silent failures").nth(1).unwrap();
     let bdf = row(worst, "bdf");
     assert_eq!(
         bdf[2..],
         ["rtol 10⁻⁵, restarted at corners", "0.010", "3.0 digits", "“solved” (+1)"]
     );
     assert_eq!(row(worst, "rk4")[3..], ["0.11", "–", "“solved”"]);
+    assert!(front.contains("2 solvers ran 8 times on 1 problem ("), "{}", &front[..1500]);
+    assert!(front.contains("by rk4 and bdf (1 of 1)."), "who delivers 1e-3");
+    assert!(front.contains("most often bdf, on 1 of the 1 problems"), "who is cheapest at 1e-6");
+    assert!(front.contains("there are 2 (rk4 1, bdf 1).\nNo solver is without."), "who lies");
     assert!(front.contains("(1000)"), "the budget of the study is not told");
 }
 
@@ -114,9 +118,14 @@ fn without_a_silent_failure_none_is_listed_and_without_a_run_there_is_no_section
 fn the_map_marks_what_failed_and_what_lied() {
     let files = rendered(&[lying()]);
     let (svg, csv) = (&files["solvers.svg"], &files["solvers.csv"]);
-    assert!(svg.contains(">−3 !</text>"), "bdf at 1e-6 delivers below 1e-3 and lies elsewhere");
+    assert!(svg.contains(">−3</text>"), "bdf at 1e-6 delivers below 1e-3, and lies elsewhere only");
+    assert!(!svg.contains(" !</text>"), "a mark for a run that is not shown");
+    let mut nearest = lying();
+    nearest.cases.retain(|case| case.value != 1e-6);
+    let nearest = rendered(&[nearest]);
+    assert!(nearest["solvers.svg"].contains(">−1 !</text>"), "bdf at 1e-5 is shown and lies");
     assert!(svg.contains("rotate(-90 "), "the solvers' names stand upright");
-    assert!(csv.contains("staircase: slip,bdf,1e-6,0.00099,a run of this solver here said solved"));
+    assert!(csv.contains("staircase: slip,bdf,1e-6,0.00099,\n"));
     let mut failed = lying();
     failed.cases.retain(|case| case.status != "solved" || case.solver == "rk4");
     let svg = &rendered(&[failed])["solvers.svg"];
