@@ -86,7 +86,7 @@ fn a_run_that_said_solved_and_was_not_is_counted_and_one_that_failed_is_not() {
     );
     assert_eq!(row(worst, "rk4")[3..], ["0.11", "–", "“solved”"]);
     assert!(front.contains("2 solvers ran 8 times on 1 problem ("), "{}", &front[..1500]);
-    assert!(front.contains("by rk4 and bdf (1 of 1)."), "who delivers 1e-3");
+    assert!(front.contains("by rk4 (1 of 1) and bdf (1 of 1), of"), "who delivers 1e-3");
     assert!(front.contains("most often bdf, on 1 of the 1 problems"), "who is cheapest at 1e-6");
     assert!(front.contains("there are 2 (rk4 1, bdf 1).\nNo solver is without."), "who lies");
     assert!(front.contains("(1000)"), "the budget of the study is not told");

@@ -23,29 +23,30 @@ pub(super) fn findings(problems: &[Problem], solvers: &[&str]) -> String {
     text
 }
 
-/// Who delivers 10⁻³ on most problems, and who on the fewest.
+/// Who delivers 10⁻³ on most problems, and who on the fewest, of those they were run on.
 fn reliable(text: &mut String, problems: &[Problem], solvers: &[&str]) {
-    let reached =
-        |solver: &&str| problems.iter().filter(|p| cheapest(p.of(solver), 1e-3).is_some()).count();
-    let counts: Vec<usize> = solvers.iter().map(reached).collect();
-    let (most, least) = (counts.iter().max().copied(), counts.iter().min().copied());
-    let (Some(most @ 1..), Some(least)) = (most, least) else {
+    let reached = |solver: &&str| {
+        let run = problems.iter().filter(|p| p.of(solver).next().is_some());
+        let n = run.clone().filter(|p| cheapest(p.of(solver), 1e-3).is_some()).count();
+        (n, run.count())
+    };
+    let counts: Vec<(usize, usize)> = solvers.iter().map(reached).collect();
+    let most = counts.iter().map(|(n, _)| *n).max().unwrap_or(0);
+    let least = counts.iter().map(|(n, _)| *n).min().unwrap_or(0);
+    if most == 0 {
         text.push_str(" An error of 10⁻³ is delivered by nobody.");
         return;
-    };
-    let all = problems.len();
-    let with = |n: usize| {
-        joined(solvers.iter().zip(&counts).filter(|c| *c.1 == n).map(|c| *c.0).collect())
-    };
-    put!(
-        text,
-        " An error of 10⁻³ is delivered on most of them by {} ({most} of {all})",
-        with(most)
-    );
-    if least < most {
-        put!(text, ", on the fewest by {} ({least})", with(least));
     }
-    text.push('.');
+    let with = |wanted: usize| {
+        let named = solvers.iter().zip(&counts).filter(|(_, (n, _))| *n == wanted);
+        named.map(|(name, (n, of))| format!("{name} ({n} of {of})")).collect::<Vec<_>>()
+    };
+    let told = |names: &[String]| joined(names.iter().map(String::as_str).collect());
+    put!(text, " An error of 10⁻³ is delivered on most problems by {}", told(&with(most)));
+    if least < most {
+        put!(text, ", on the fewest by {}", told(&with(least)));
+    }
+    text.push_str(", of those each was run on.");
 }
 
 /// Who is cheapest most often at 10⁻⁶.

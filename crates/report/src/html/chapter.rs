@@ -18,12 +18,7 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
     if !summary.about("paper").is_empty() {
         put!(out, "<p class=\"place\">{}</p>\n", prose::html(summary.about("paper")));
     }
-    let (first, rest) =
-        summary.about("text").split_once("\n\n").unwrap_or((summary.about("text"), ""));
-    out.push_str(&paragraphs(first));
-    if !rest.trim().is_empty() {
-        put!(out, "<details><summary>More of it</summary>\n{}</details>\n", paragraphs(rest));
-    }
+    write_text(out, summary.about("text"));
     let (shown, more): (Vec<&StudyRow>, Vec<&StudyRow>) =
         summary.studies.iter().partition(|row| !chapter.figures_of(&row.study).is_empty());
     for study in shown {
@@ -58,6 +53,18 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
         out.push_str("</details>\n");
     }
     out.push_str("</section>\n");
+}
+
+/// The text of the experiment: what the model is and what is asked of it, in two sentences, the others folded.
+fn write_text(out: &mut String, text: &str) {
+    let (opening, others) = text.split_once("\n\n").unwrap_or((text, ""));
+    let (first, rest) = split_first(opening);
+    let (second, rest) = split_first(&rest);
+    out.push_str(&paragraphs(&format!("{first} {second}")));
+    let rest = paragraphs(&rest) + &paragraphs(others);
+    if !rest.is_empty() {
+        put!(out, "<details><summary>More of it</summary>\n{rest}</details>\n");
+    }
 }
 
 /// A study: its first sentence and the figures of the model, all else folded.
