@@ -210,6 +210,21 @@ fn the_values_in_a_figure_stand_beside_it_with_units() {
 }
 
 #[test]
+fn a_curve_that_is_alone_has_no_name_and_runs_that_failed_set_no_axis() {
+    let mut summary = fixture::summary();
+    let alone = find(&all(), "dahl-gamma-sweep/fig08.svg").to_owned();
+    assert!(!alone.contains(">dahl</text>"), "a legend for a single curve");
+    assert!(find(&all(), "dahl-gamma-sweep/fig01.svg").contains(">γ = 0.25</text>"));
+    let mut drawn = |spent: u64| {
+        let failed = summary.cases.iter_mut().filter(|case| case.status != "solved");
+        failed.for_each(|case| case.evaluations = spent);
+        let outputs = render(std::slice::from_ref(&summary)).unwrap();
+        find(&outputs, "dahl-gamma-sweep/fig01-work.svg").to_owned()
+    };
+    assert!(drawn(1_000_000_000) == drawn(10_000_000_000), "a failed run moves the axis of work");
+}
+
+#[test]
 fn a_history_that_stops_early_says_why() {
     let mut summary = fixture::summary();
     summary.figures.retain(|row| row.kind == "history");
