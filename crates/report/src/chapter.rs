@@ -1,5 +1,6 @@
 //! One experiment on its way to the pages: its tables, its folder, its drawn figures.
 
+use crate::claims::Part;
 use crate::figures::{Drawing, FigureKind, draw};
 use crate::number;
 use crate::plot::file;
@@ -30,6 +31,13 @@ pub(crate) struct Figure<'a> {
     pub(crate) kind: &'static FigureKind,
     /// What is drawn.
     pub(crate) drawing: Drawing,
+}
+
+impl Figure<'_> {
+    /// Whether it stands folded at the end of its chapter.
+    fn stands_aside(&self) -> bool {
+        self.row.aside || self.kind.of_solvers
+    }
 }
 
 /// A study's title, or its name without one.
@@ -93,21 +101,33 @@ impl<'a> Chapter<'a> {
         self.figures.iter().find(|figure| figure.row.figure == claim.figure)
     }
 
-    /// The figures of one study, those of the model first, then those of the solvers;
-    /// those of no study belong to the empty name.
-    pub(crate) fn figures_of(&self, study: &str) -> [Vec<&Figure<'a>>; 2] {
+    /// The figures of the model of one study; those of no study belong to the empty name.
+    pub(crate) fn figures_of(&self, study: &str) -> Vec<&Figure<'a>> {
         let known = |name: &str| self.summary.studies.iter().any(|row| row.study == name);
-        let own = self.figures.iter().filter(|figure| {
+        let own = |figure: &&Figure| {
             let own = figure.row.study.as_str();
             own == study || (study.is_empty() && !known(own))
-        });
-        let (solvers, model) = own.partition(|figure| figure.kind.of_solvers);
-        [model, solvers]
+        };
+        self.figures.iter().filter(|figure| !figure.stands_aside()).filter(own).collect()
     }
 
-    /// The claims of it that hold.
-    pub(crate) fn held_claims(&self) -> Vec<&'a ClaimRow> {
-        self.summary.claims.iter().filter(|claim| settled(claim)).collect()
+    /// What stands folded at the end: the figures put aside, then those of how the solvers did.
+    pub(crate) fn more_figures(&self) -> Vec<&Figure<'a>> {
+        let mut more: Vec<_> = self.figures.iter().filter(|figure| figure.stands_aside()).collect();
+        more.sort_by_key(|figure| figure.kind.of_solvers);
+        more
+    }
+
+    /// The claims of one part of the front.
+    pub(crate) fn claims_of(&self, part: Part) -> Vec<&'a ClaimRow> {
+        self.summary.claims.iter().filter(|claim| Part::of(claim) == part).collect()
+    }
+
+    /// The first number in the place of the paper, which chapters are ordered by; without one they come last.
+    pub(crate) fn place(&self) -> u64 {
+        let paper = self.summary.about("paper");
+        let digits = paper.split(|c: char| !c.is_ascii_digit()).find(|part| !part.is_empty());
+        digits.and_then(|number| number.parse().ok()).unwrap_or(u64::MAX)
     }
 
     /// The figures' own files: pictures and the values in them.
@@ -142,139 +162,8 @@ pub(crate) const PAPER: &str = "A reproduction of “Duhem Modeling of Friction-
      (IEEE Control Systems Magazine 28(5), 2008, doi 10.1109/MCS.2008.927331), its claims measured against \
      exact answers, and the ODE solvers that have to cope with them compared.";
 
-/// Whether a claim holds as it stands: what depends on something that is not printed does not.
-fn settled(claim: &ClaimRow) -> bool {
-    claim.holds == Some(true) && claim.verdict != "under-specified"
-}
-
-/// The claims that do not hold, then those that cannot be decided or not in full, each with its chapter.
-pub(crate) fn open_claims<'a, 'b>(
-    chapters: &'b [Chapter<'a>],
-) -> Vec<(&'b Chapter<'a>, &'a ClaimRow)> {
-    let of =
-        |chapter: &'b Chapter<'a>| chapter.summary.claims.iter().map(move |claim| (chapter, claim));
-    let mut all: Vec<_> = chapters.iter().flat_map(of).filter(|(_, c)| !settled(c)).collect();
-    all.sort_by_key(|(_, claim)| match claim.holds {
-        Some(false) => 0,
-        None => 1,
-        Some(true) => 2,
-    });
-    all
-}
-
-/// Whether the claims that hold are so few that a front can show a line of each.
-pub(crate) fn few_held(chapters: &[Chapter]) -> bool {
-    chapters.iter().map(|chapter| chapter.held_claims().len()).sum::<usize>() <= 30
-}
-
-/// The heading of what [`open_claims`] gives.
-pub(crate) const OPEN: &str = "What does not hold, or cannot be decided in full";
-
 /// A text's first sentence, and the others.
 pub(crate) fn split_first(text: &str) -> (String, String) {
     let mut all = escape::sentences(text).into_iter();
     (all.next().unwrap_or_default(), all.collect::<Vec<_>>().join(" "))
-}
-
-/// A number with its unit and the printed one before it, as the line of a claim that holds ends; often nothing.
-pub(crate) fn in_short(claim: &ClaimRow) -> String {
-    match (claim.printed, claim.ours) {
-        (Some(_), Some(_)) => {
-            let printed = number::printed(claim.printed, claim.digits, &claim.unit);
-            format!("printed {printed}, ours {}", ours(claim))
-        }
-        _ => String::new(),
-    }
-}
-
-/// What the front says first: how many claims hold, and the verdicts.
-pub(crate) fn count_of_claims(claims: &[&ClaimRow]) -> String {
-    let total = claims.len();
-    if total == 0 {
-        return "No claim of the paper is tested here.".to_owned();
-    }
-    let held = |holds| claims.iter().filter(|claim| claim.holds == holds).count();
-    let kinds = ["reproduced", "contradicted", "under-specified", "qualitative"];
-    let verdicts: Vec<String> = kinds
-        .iter()
-        .map(|kind| (claims.iter().filter(|claim| claim.verdict == *kind).count(), kind))
-        .filter(|(n, _)| *n > 0)
-        .map(|(n, kind)| format!("{n} {kind}"))
-        .collect();
-    let (yes, no, open) = (held(Some(true)), held(Some(false)), held(None));
-    let plural =
-        |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
-    let mut parts = vec![plural(yes, "holds", "hold"), plural(no, "does not", "do not")];
-    if open > 0 {
-        parts.push(format!("{open} cannot be decided"));
-    }
-    let last = parts.pop().unwrap_or_default();
-    let tested = plural(total, "claim", "claims");
-    let verdicts =
-        if verdicts.is_empty() { String::new() } else { format!(": {}", verdicts.join(", ")) };
-    format!("Of {tested} of the paper, {} and {last}{verdicts}.", parts.join(", "))
-}
-
-/// A verdict's sign, told apart without colour.
-pub(crate) fn sign(verdict: &str) -> &'static str {
-    match verdict {
-        "reproduced" => "✓",
-        "contradicted" => "✗",
-        "under-specified" => "?",
-        "qualitative" => "≈",
-        _ => "·",
-    }
-}
-
-/// Whether the claim holds, where the verdict alone does not say it.
-pub(crate) fn holds(claim: &ClaimRow) -> &'static str {
-    match (claim.verdict.as_str(), claim.holds) {
-        ("reproduced", Some(true)) | ("contradicted", Some(false)) => "",
-        (_, Some(true)) => "holds",
-        (_, Some(false)) => "does not hold",
-        (_, None) => "cannot be decided",
-    }
-}
-
-/// Our number against a printed one, with its error.
-pub(crate) fn ours(claim: &ClaimRow) -> String {
-    match (claim.printed, claim.ours) {
-        (Some(_), Some(value)) => number::with_error(value, claim.error, &claim.unit),
-        _ => number::NONE.to_owned(),
-    }
-}
-
-/// How a claim was decided; a number that answers no printed one is the evidence for it.
-pub(crate) fn decided(claim: &ClaimRow) -> Option<String> {
-    let number = claim.ours.filter(|_| claim.printed.is_none());
-    let number = number.map(|value| number::with_error(value, claim.error, &claim.unit));
-    let parts = [Some(claim.how.clone()), number].into_iter().flatten();
-    let parts: Vec<String> = parts.filter(|part| !part.is_empty()).collect();
-    (!parts.is_empty()).then(|| format!("Decided by: {}", parts.join("; found: ")))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_front_counts_what_holds_and_what_does_not() {
-        let claim = |verdict: &str, holds| ClaimRow {
-            verdict: verdict.to_owned(),
-            holds,
-            ..ClaimRow::default()
-        };
-        let claims = [
-            claim("reproduced", Some(true)),
-            claim("contradicted", Some(false)),
-            claim("qualitative", Some(true)),
-            claim("under-specified", None),
-        ];
-        assert_eq!(
-            count_of_claims(&claims.iter().collect::<Vec<_>>()),
-            "Of 4 claims of the paper, 2 hold, 1 does not and 1 cannot be decided: \
-             1 reproduced, 1 contradicted, 1 under-specified, 1 qualitative."
-        );
-        assert_eq!(count_of_claims(&[]), "No claim of the paper is tested here.");
-    }
 }

@@ -16,6 +16,7 @@ macro_rules! put {
 
 mod across;
 mod chapter;
+mod claims;
 mod error;
 mod escape;
 mod figures;
@@ -44,9 +45,13 @@ pub struct Output {
     pub bytes: Vec<u8>,
 }
 
-/// Renders everything there is to render from the summaries.
+/// Renders everything there is to render from the summaries, in the order of the paper.
+///
+/// # Errors
+/// An unknown kind of figure, a row or table that lacks something, two files of one name.
 pub fn render(summaries: &[Summary]) -> Result<Vec<Output>, ReportError> {
-    let chapters = summaries.iter().map(Chapter::new).collect::<Result<Vec<_>, _>>()?;
+    let mut chapters = summaries.iter().map(Chapter::new).collect::<Result<Vec<_>, _>>()?;
+    chapters.sort_by_key(|chapter| (chapter.place(), chapter.summary.name.as_str()));
     let across = Across::new(&chapters)?;
     let text = |path: String, text: String| Output { path, bytes: text.into_bytes() };
     let mut all = vec![

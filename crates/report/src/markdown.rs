@@ -1,9 +1,9 @@
 //! The same as Markdown, one sentence per line.
 
-use crate::across::{Across, MAP, NAME, READS, TITLE};
-use crate::chapter::{
-    Chapter, Figure, OPEN, PAPER, count_of_claims, decided, few_held, heading, holds, in_short,
-    open_claims, ours, sign, split_first, told,
+use crate::across::{Across, COUNTED, MAP, NAME, READS, TITLE};
+use crate::chapter::{Chapter, Figure, PAPER, heading, told};
+use crate::claims::{
+    HELD, OPEN, Part, decided, few_held, in_short, of_part, ours, sign, tally, undecided,
 };
 use crate::escape::{code_path, markdown, markdown_attribute, sentences};
 use crate::grid;
@@ -17,18 +17,9 @@ pub(crate) fn front(chapters: &[Chapter], across: Option<&Across>) -> String {
     let claims: Vec<&ClaimRow> = chapters.iter().flat_map(|c| &c.summary.claims).collect();
     let mut out = format!(
         "# Duhem\n\n{PAPER}\n\n{}\n\nThe same as one page: [index.html](index.html).\n",
-        markdown(&count_of_claims(&claims))
+        markdown(&tally(&claims))
     );
-    let open = open_claims(chapters);
-    if !open.is_empty() {
-        put!(out, "\n## {OPEN}\n\n");
-        out.push_str(
-            "| verdict | the paper says | printed | ours | why |\n|---|---|---:|---:|---|\n",
-        );
-        for (chapter, claim) in &open {
-            out.push_str(&claim_row(chapter, claim));
-        }
-    }
+    open(&mut out, chapters);
     held(&mut out, chapters);
     if let Some(across) = across {
         solvers(&mut out, across);
@@ -50,26 +41,41 @@ pub(crate) fn front(chapters: &[Chapter], across: Option<&Across>) -> String {
     out
 }
 
-fn claim_row(chapter: &Chapter, claim: &ClaimRow) -> String {
-    let mut verdict = format!("{} {}", sign(&claim.verdict), markdown(&claim.verdict));
-    if !holds(claim).is_empty() {
-        put!(verdict, "<br>{}", holds(claim));
+/// What does not hold, and behind it, folded, what is not decided.
+fn open(out: &mut String, chapters: &[Chapter]) {
+    let [no, open] = [Part::Contradicted, Part::Undecided].map(|part| of_part(chapters, part));
+    if no.is_empty() && open.is_empty() {
+        return;
     }
-    let (why, rest) = split_first(&claim.why);
-    format!(
-        "| {verdict} | {says}<br>{place} | {printed} | {ours} | {why} <details><summary>more</summary>{more}</details> |\n",
-        says = prose::markdown(&claim.says),
-        place = markdown(&claim.place),
-        printed = markdown(&number::printed(claim.printed, claim.digits, &claim.unit)),
-        ours = markdown(&ours(claim)),
-        why = prose::markdown(&why),
-        more = more(chapter, claim, &rest).join("<br>"),
-    )
+    put!(out, "\n## {OPEN}\n");
+    if !no.is_empty() {
+        put!(out, "\n{}", claim_table(&no));
+    }
+    if !open.is_empty() {
+        out.push_str(&folded(&format!("Not decided: {}", undecided(&open)), &claim_table(&open)));
+    }
+}
+
+fn claim_table(claims: &[(&Chapter, &ClaimRow)]) -> String {
+    let head = "| verdict | the paper says | printed | ours |\n|---|---|---:|---:|\n".to_owned();
+    claims.iter().fold(head, |mut out, (chapter, claim)| {
+        put!(
+            out,
+            "| {sign} {verdict} | {says} <details><summary>Why</summary>{more}</details> | {printed} | {ours} |\n",
+            sign = sign(&claim.verdict),
+            verdict = markdown(&claim.verdict),
+            says = prose::markdown(&claim.says),
+            more = more(chapter, claim).join("<br>"),
+            printed = markdown(&number::printed(claim.printed, claim.digits, &claim.unit)),
+            ours = markdown(&ours(claim)),
+        );
+        out
+    })
 }
 
 /// What is told of a claim on request.
-fn more(chapter: &Chapter, claim: &ClaimRow, why: &str) -> Vec<String> {
-    let mut all = vec![prose::markdown(why)];
+fn more(chapter: &Chapter, claim: &ClaimRow) -> Vec<String> {
+    let mut all = vec![prose::markdown(&claim.why)];
     all.push(format!("{} · {}", markdown(&claim.place), markdown(&claim.id)));
     all.extend(decided(claim).map(|text| prose::markdown(&text)));
     if let Some(figure) = chapter.shown(claim) {
@@ -81,34 +87,36 @@ fn more(chapter: &Chapter, claim: &ClaimRow, why: &str) -> Vec<String> {
     all
 }
 
-/// What holds: a line each, by experiment, with all there is to say folded behind it.
+/// What holds: a line each, by experiment, with all there is to say folded behind it; our own statements last.
 fn held(out: &mut String, chapters: &[Chapter]) {
-    if chapters.iter().all(|chapter| chapter.held_claims().is_empty()) {
+    let own = of_part(chapters, Part::Ours);
+    if own.is_empty() && of_part(chapters, Part::Reproduced).is_empty() {
         return;
     }
-    out.push_str("\n## What holds\n");
+    put!(out, "\n## {HELD}\n");
     for chapter in chapters {
-        let claims = chapter.held_claims();
+        let claims = chapter.claims_of(Part::Reproduced);
         if claims.is_empty() {
             continue;
         }
-        let mut inside = String::new();
-        for claim in &claims {
-            let short = in_short(claim);
-            let short = if short.is_empty() { short } else { format!(" – {short}") };
-            let line = format!(
-                "{} {}{}",
-                sign(&claim.verdict),
-                prose::markdown_html(&claim.says),
-                prose::markdown_html(&short)
-            );
-            inside.push_str(&folded(&line, &more(chapter, claim, &claim.why).join("<br>\n")));
-        }
+        let inside: String = claims.iter().map(|claim| held_line(chapter, claim)).collect();
         let title = prose::markdown_html(chapter.title());
-        let line = format!("{title}: {} hold", claims.len());
         let open = if few_held(chapters) { " open" } else { "" };
-        put!(out, "\n<details{open}><summary>{line}</summary>\n{inside}\n</details>\n");
+        let line = format!("<summary>{title}: {} reproduced</summary>", claims.len());
+        put!(out, "\n<details{open}>{line}\n{inside}\n</details>\n");
     }
+    if !own.is_empty() {
+        let inside: String = own.iter().map(|(chapter, claim)| held_line(chapter, claim)).collect();
+        out.push_str(&folded(&format!("Statements of our own: {}", own.len()), &inside));
+    }
+}
+
+fn held_line(chapter: &Chapter, claim: &ClaimRow) -> String {
+    let short = in_short(claim);
+    let short = if short.is_empty() { short } else { format!(" – {short}") };
+    let says = prose::markdown_html(&claim.says);
+    let line = format!("{} {says}{}", sign(&claim.verdict), prose::markdown_html(&short));
+    folded(&line, &more(chapter, claim).join("<br>\n"))
 }
 
 /// A line, and behind it what is Markdown again.
@@ -120,6 +128,8 @@ fn folded(line: &str, inside: &str) -> String {
 fn solvers(out: &mut String, across: &Across) {
     put!(out, "\n## {TITLE}\n");
     across.text.iter().for_each(|text| out.push_str(&paragraphs(text)));
+    let counted: String = across.counted.iter().map(|text| paragraphs(text)).collect();
+    out.push_str(&folded(COUNTED, &counted));
     put!(out, "\n![{MAP}]({NAME}.svg)\n{}\n[Data]({NAME}.csv)\n", paragraphs(READS));
     for table in &across.tables {
         let inside = format!("{}\n{}", paragraphs(&table.reads), table.grid.markdown());
@@ -154,9 +164,14 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
         for (key, text) in told {
             put!(out, "- {key}: {}\n", prose::markdown(&text));
         }
-        pictures(&mut out, chapter.figures_of(&study.study));
+        chapter.figures_of(&study.study).into_iter().for_each(|f| out.push_str(&picture(f)));
     }
-    pictures(&mut out, chapter.figures_of(""));
+    chapter.figures_of("").into_iter().for_each(|figure| out.push_str(&picture(figure)));
+    let more = chapter.more_figures();
+    if !more.is_empty() {
+        let inside: String = more.iter().map(|figure| picture(figure)).collect();
+        out.push_str(&folded(&format!("More figures: {}", more.len()), &inside));
+    }
     if let Some(table) = grid::measures(summary) {
         let title = format!("Measured quantities: {}", table.rows.len());
         out.push_str(&folded(&title, &table.markdown()));
@@ -187,19 +202,6 @@ fn errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {
             table.markdown()
         );
         out.push_str(&folded(&format!("{name}: errors"), &inside));
-    }
-}
-
-/// The figures of the model, then those of the solvers, folded.
-fn pictures(out: &mut String, [model, solvers]: [Vec<&Figure>; 2]) {
-    for figure in model {
-        out.push_str(&picture(figure));
-    }
-    if !solvers.is_empty() {
-        let names: Vec<String> =
-            solvers.iter().map(|figure| prose::markdown_html(&figure.row.title)).collect();
-        let inside: String = solvers.into_iter().map(picture).collect();
-        out.push_str(&folded(&format!("Solvers: {}", names.join(" · ")), &inside));
     }
 }
 

@@ -160,6 +160,21 @@ pub(crate) fn printed(value: Option<f64>, digits: Option<u64>, of: &str) -> Stri
     format!("{number}{}", unit(of))
 }
 
+/// A value with four significant digits and its unit, and no error; fewer where the number is short, as 0.75 is.
+pub(crate) fn four_digits(value: f64, of: &str) -> String {
+    if !value.is_finite() {
+        return not_finite(value);
+    }
+    let shorter = parse(value, 3) == parse(value, 10);
+    let number = if shorter { trimmed(value, 3) } else { significant(value, 4) };
+    format!("{number}{}", unit(of))
+}
+
+/// Whether a number without unit is a whole one: what is counted has no error worth saying.
+fn is_count(value: f64) -> bool {
+    value.abs() < 1e6 && value.fract() == 0.0
+}
+
 /// A value with its error, the digits of one matching the other.
 pub(crate) fn with_error(value: f64, error: Option<f64>, of: &str) -> String {
     let unit = unit(of);
@@ -171,6 +186,9 @@ pub(crate) fn with_error(value: f64, error: Option<f64>, of: &str) -> String {
     };
     if value.abs() < 0.05 * error && error >= ROUND_OFF {
         return format!("0 ± {}{unit}", significant(error, 1));
+    }
+    if error < ROUND_OFF && unit.is_empty() && is_count(value) {
+        return short(value);
     }
     if error < ROUND_OFF && (value == 0.0 || value.abs() > 1e-10) {
         return format!("{}{unit}, error <\u{a0}10⁻¹³", ten_digits(value));
@@ -301,11 +319,28 @@ mod tests {
             (1e300, Some(1e-300), "", "10³⁰⁰, error <\u{a0}10⁻¹³"),
             (f64::NAN, Some(1.0), "", "not a number"),
             (0.0, Some(1e-12), "N", "0 ± 10⁻¹²\u{202f}N"),
-            (0.0, Some(0.0), "", "0, error <\u{a0}10⁻¹³"),
+            (0.0, Some(0.0), "", "0"),
+            (2.0, Some(7e-15), "1", "2"),
+            (2.0, Some(7e-15), "m", "2\u{202f}m, error <\u{a0}10⁻¹³"),
+            (2.0, Some(0.05), "1", "2.00 ± 0.05"),
             (1.0, Some(f64::INFINITY), "", "1"),
         ];
         for (value, error, unit, text) in table {
             assert_eq!(with_error(*value, *error, unit), *text, "{value} {error:?}");
+        }
+    }
+
+    #[test]
+    fn a_claim_shows_four_digits_and_no_error() {
+        let table = [
+            (1.553_958_629, "J", "1.554\u{202f}J"),
+            (-0.02, "m", "−0.02\u{202f}m"),
+            (4.000_000_64e-7, "m/s", "4.000\u{202f}×\u{202f}10⁻⁷\u{202f}m/s"),
+            (2.0, "1", "2"),
+            (f64::INFINITY, "N", "∞"),
+        ];
+        for (value, unit, text) in table {
+            assert_eq!(four_digits(value, unit), text, "{value:e} {unit}");
         }
     }
 

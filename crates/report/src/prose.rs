@@ -42,6 +42,7 @@ fn write(text: &str, escape: &mut dyn FnMut(&str) -> String) -> String {
 fn pieces(text: &str) -> Vec<Piece> {
     let chars: Vec<char> = text.chars().collect();
     let (mut all, mut plain, mut i) = (Vec::new(), String::new(), 0);
+    let mut after_index = None;
     while i < chars.len() {
         if let Some((end, number)) = power(&chars, i) {
             plain.push_str(&number);
@@ -49,7 +50,7 @@ fn pieces(text: &str) -> Vec<Piece> {
             continue;
         }
         let found = match chars[i] {
-            '_' => subscript(&chars, i).map(|(end, inner)| ("sub", end, inner)),
+            '_' => subscript(&chars, i, after_index).map(|(end, inner)| ("sub", end, inner)),
             '^' => exponent(&chars, i).map(|(end, inner)| ("sup", end, inner)),
             '*' => emphasis(&chars, i).map(|(end, inner)| ("em", end, inner)),
             _ => None,
@@ -61,6 +62,7 @@ fn pieces(text: &str) -> Vec<Piece> {
             all.push((None, std::mem::take(&mut plain)));
             all.push((Some(element), inner));
             i = end;
+            after_index = (element == "sub").then_some(end);
         } else {
             plain.push(match chars[i] {
                 '-' if minus => '−',
@@ -100,15 +102,33 @@ fn space(chars: &[char], at: usize) -> char {
 }
 
 /// The index of a symbol of one letter: `F_C`, `v_S`, but not `tr_bdf2`.
-fn subscript(chars: &[char], at: usize) -> Option<(usize, String)> {
+/// A symbol can follow an index at once, as in `k_iΔ_i`: it begins at `start`.
+fn subscript(chars: &[char], at: usize, start: Option<usize>) -> Option<(usize, String)> {
     let letter = at > 0 && chars[at - 1].is_alphabetic();
-    // A factor may stand before the letter, as in `2F_C`, but not a name, as in `dop853_f`.
-    let before = chars[..at.saturating_sub(1)].iter().rfind(|c| !c.is_ascii_digit());
-    let alone = !before.is_some_and(|c| c.is_alphanumeric() || *c == '_');
-    let inner: String = chars[at + 1..].iter().take_while(|c| c.is_alphanumeric()).collect();
+    // A factor may stand before the letter, as in `2F_C` or `½k_i`, but not a name, as in `dop853_f`.
+    let before = chars[..at.saturating_sub(1)].iter().rfind(|c| !is_factor(**c));
+    let follows = at > 0 && start == Some(at - 1);
+    let alone = follows || !before.is_some_and(|c| c.is_alphanumeric() || *c == '_');
+    let mut inner = String::new();
+    for c in &chars[at + 1..] {
+        let next = !inner.is_empty() && is_greek(*c);
+        if next || !(c.is_alphabetic() || c.is_ascii_digit()) {
+            break;
+        }
+        inner.push(*c);
+    }
     let end = at + 1 + inner.chars().count();
     let closed = chars.get(end) != Some(&'_');
     (letter && alone && closed && (1..=3).contains(&(end - at - 1))).then_some((end, inner))
+}
+
+fn is_greek(c: char) -> bool {
+    matches!(c, 'Α'..='Ω' | 'α'..='ω')
+}
+
+/// A digit, or a fraction in one character.
+fn is_factor(c: char) -> bool {
+    c.is_ascii_digit() || matches!(c, '½' | '¼' | '¾' | '⅓' | '⅔')
 }
 
 /// What is raised: a bracket's inside or one short word.
@@ -176,6 +196,13 @@ mod tests {
             "2\u{202f}×\u{202f}10⁻¹⁶\u{202f}N, 10⁻¹². 0; fig-1e5 3edges"
         );
         assert_eq!(html("-0.5 N, 2-3, (-1)"), "−0.5\u{202f}N, 2-3, (−1)");
+        let (k, d) = ("k<sub>i</sub>", "Δ<sub>i</sub>");
+        assert_eq!(html("Σ k_iΔ_i²"), format!("Σ {k}{d}²"));
+        assert_eq!(
+            html("4k_iΔ_i(u_max − Δ_i), ½k_iΔ_i²"),
+            format!("4{k}{d}(u<sub>max</sub> − {d}), ½{k}{d}²")
+        );
+        assert_eq!(html("k_iΔ_long_name"), format!("{k}Δ_long_name"));
         assert_eq!(html("<^<b>_C"), "&lt;^&lt;b&gt;_C");
     }
 

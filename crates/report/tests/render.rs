@@ -180,14 +180,22 @@ fn the_front_says_what_holds_and_shows_both_numbers() {
     let outputs = all();
     for path in ["index.html", "README.md"] {
         let front = find(&outputs, path);
-        assert!(front.contains("1 reproduced, 1 contradicted"), "{path}");
-        assert!(front.contains("1.554220345\u{202f}J, error"), "{path}");
+        assert!(front.contains("1 is reproduced, 1 contradicted, 1 under-specified"), "{path}");
+        assert!(front.contains("1.554\u{202f}J"), "{path}: four digits in the row");
+        assert!(front.contains("1.554220345\u{202f}J, error"), "{path}: all digits behind it");
         assert!(front.contains("2.6\u{202f}J"), "{path}");
+        assert!(
+            front.contains("Not decided: 1 under-specified, 1 qualitative and 1 judged"),
+            "{path}"
+        );
     }
     let page = find(&outputs, "index.html");
     let place = |id: &str| page.find(&format!("id=\"claim--{id}\"")).unwrap();
-    let places = ["dahl.energy", "dahl.frequency", "dahl.saturation", "dahl.shape"].map(place);
-    assert!(places.is_sorted(), "what does not hold comes first, then what cannot be decided");
+    let places = ["dahl.energy", "dahl.shape", "dahl.frequency", "dahl.saturation"].map(place);
+    assert!(places.is_sorted(), "what does not hold comes first, then what is not decided");
+    let fold = page.find("<summary>Not decided").unwrap();
+    assert!(places[0] < fold && fold < places[1], "what is not decided stands folded");
+    assert!(page.contains("class=\"n none\">–"), "a number that is not there can be left out");
     let readme = find(&outputs, "dahl-gamma-sweep/README.md");
     assert!(readme.contains("see p. 95.\nThe loop saturates there.\n"), "one sentence per line");
 }
@@ -199,6 +207,21 @@ fn the_values_in_a_figure_stand_beside_it_with_units() {
     assert!(csv.starts_with("panel,series,u [m],F [N],failure\n"), "{}", &csv[..80]);
     let csv = find(&outputs, "dahl-gamma-sweep/fig01-collapse.csv");
     assert!(csv.contains(",dopri5,0.25,,too many evaluations\n"), "a failure without its row");
+}
+
+#[test]
+fn a_curve_that_is_alone_has_no_name_and_runs_that_failed_set_no_axis() {
+    let mut summary = fixture::summary();
+    let alone = find(&all(), "dahl-gamma-sweep/fig08.svg").to_owned();
+    assert!(!alone.contains(">dahl</text>"), "a legend for a single curve");
+    assert!(find(&all(), "dahl-gamma-sweep/fig01.svg").contains(">γ = 0.25</text>"));
+    let mut drawn = |spent: u64| {
+        let failed = summary.cases.iter_mut().filter(|case| case.status != "solved");
+        failed.for_each(|case| case.evaluations = spent);
+        let outputs = render(std::slice::from_ref(&summary)).unwrap();
+        find(&outputs, "dahl-gamma-sweep/fig01-work.svg").to_owned()
+    };
+    assert!(drawn(1_000_000_000) == drawn(10_000_000_000), "a failed run moves the axis of work");
 }
 
 #[test]

@@ -78,13 +78,17 @@ fn a_run_that_said_solved_and_was_not_is_counted_and_one_that_failed_is_not() {
         row(front, "rk4"),
         ["rk4", "3/3", "1/1", "1/1", "0/1", "13\u{202f}×", "1.7\u{202f}×", "1", "–"]
     );
-    let worst = front.split("### The worst silent failures").nth(1).unwrap();
+    let worst = front.split("<summary>The worst silent failures").nth(1).unwrap();
     let bdf = row(worst, "bdf");
     assert_eq!(
         bdf[2..],
         ["rtol 10⁻⁵, restarted at corners", "0.010", "3.0 digits", "“solved” (+1)"]
     );
     assert_eq!(row(worst, "rk4")[3..], ["0.11", "–", "“solved”"]);
+    assert!(front.contains("2 solvers ran 8 times on 1 problem ("), "{}", &front[..1500]);
+    assert!(front.contains("by rk4 (1 of 1) and bdf (1 of 1), of"), "who delivers 1e-3");
+    assert!(front.contains("most often bdf, on 1 of the 1 problems"), "who is cheapest at 1e-6");
+    assert!(front.contains("there are 2 (rk4 1, bdf 1).\nNo solver is without."), "who lies");
     assert!(front.contains("(1000)"), "the budget of the study is not told");
 }
 
@@ -114,9 +118,14 @@ fn without_a_silent_failure_none_is_listed_and_without_a_run_there_is_no_section
 fn the_map_marks_what_failed_and_what_lied() {
     let files = rendered(&[lying()]);
     let (svg, csv) = (&files["solvers.svg"], &files["solvers.csv"]);
-    assert!(svg.contains(">−3 !</text>"), "bdf at 1e-6 delivers below 1e-3 and lies elsewhere");
+    assert!(svg.contains(">−3</text>"), "bdf at 1e-6 delivers below 1e-3, and lies elsewhere only");
+    assert!(!svg.contains(" !</text>"), "a mark for a run that is not shown");
+    let mut nearest = lying();
+    nearest.cases.retain(|case| case.value != 1e-6);
+    let nearest = rendered(&[nearest]);
+    assert!(nearest["solvers.svg"].contains(">−1 !</text>"), "bdf at 1e-5 is shown and lies");
     assert!(svg.contains("rotate(-90 "), "the solvers' names stand upright");
-    assert!(csv.contains("staircase: slip,bdf,1e-6,0.00099,a run of this solver here said solved"));
+    assert!(csv.contains("staircase: slip,bdf,1e-6,0.00099,\n"));
     let mut failed = lying();
     failed.cases.retain(|case| case.status != "solved" || case.solver == "rk4");
     let svg = &rendered(&[failed])["solvers.svg"];
@@ -202,10 +211,86 @@ fn many_claims_that_hold_are_folded_and_what_does_not_hold_is_not() {
             assert_eq!(text.contains("<details open>"), open, "{path}: {n} claims hold");
             let held = text.rfind("What holds").unwrap();
             assert!(place("sentence 0") < held && held < place("sentence 1"), "{path}");
-            let reason = &text[place("First reason.")..place("Second reason.")];
-            assert!(reason.contains("<details>"), "{path}: all of the reason is shown");
+            let row = &text[place("sentence 0")..place("First reason.")];
+            assert!(row.contains("<details><summary>Why</summary>"), "{path}: the reason is shown");
         }
     }
+}
+
+#[test]
+fn our_own_statements_are_counted_and_listed_apart_from_the_paper() {
+    let mut summary = fixture::summary();
+    let held = summary.claims.iter_mut().find(|claim| claim.verdict == "reproduced").unwrap();
+    held.place = "ours; not said by the paper".to_owned();
+    let id = held.id.clone();
+    let files = rendered(&[summary]);
+    for path in ["index.html", "README.md"] {
+        let text = &files[path];
+        let tally = "Of 3 claims of the paper, 1 is contradicted, 1 under-specified and 1 qualitative. \
+                     1 statement of our own is measured besides.";
+        assert!(text.replace("\\-", "-").contains(tally), "{path}: {}", &text[..900]);
+        assert!(
+            !text.contains("1 reproduced"),
+            "{path}: a statement of ours counted as the paper's"
+        );
+        let own = text.find("Statements of our own: 1").unwrap();
+        assert!(text.rfind(&id).unwrap() > own, "{path}: {id} is not among ours");
+    }
+}
+
+#[test]
+fn chapters_and_claims_stand_in_the_order_of_the_paper() {
+    let places = [
+        ("a", "Figures 13 to 15"),
+        ("b", "pages without a number"),
+        ("c", "Figures 3, 4 and 9"),
+        ("d", "Figure 13"),
+        ("e", "Figures 1, 2 and 8"),
+    ];
+    let summary = |(name, paper): (&str, &str)| {
+        let mut summary = Summary { name: name.to_owned(), ..fixture::summary() };
+        let row = summary.about.iter_mut().find(|row| row.key == "paper").unwrap();
+        row.value = paper.to_owned();
+        summary.about.retain(|row| row.key != "title");
+        summary.claims.iter_mut().for_each(|claim| claim.id = format!("{name}.{}", claim.id));
+        summary
+    };
+    let files = rendered(&places.map(summary));
+    let (page, front) = (&files["index.html"], &files["README.md"]);
+    let check = |text: &str, pattern: fn(&str) -> String| {
+        let place = |name: &str| text.find(&pattern(name)).unwrap_or_else(|| panic!("no {name}"));
+        let found = ["e", "c", "a", "d", "b"].map(place);
+        assert!(found.is_sorted(), "{}: {found:?}", pattern("*"));
+    };
+    check(page, |name| format!("<li><a href=\"#{name}\">"));
+    check(page, |name| format!("<section id=\"{name}\""));
+    check(page, |name| format!("claim--{name}.dahl.energy\""));
+    check(front, |name| format!("]({name}/README.md)"));
+    check(front, |name| format!("{name}.dahl.energy"));
+}
+
+#[test]
+fn figures_put_aside_stand_folded_with_those_of_the_solvers_at_the_end() {
+    let mut summary = fixture::summary();
+    summary.figures.iter_mut().find(|row| row.figure == "fig08").unwrap().aside = true;
+    let solvers =
+        summary.figures.iter().filter(|row| !["loop", "curves", "collapse"].contains(&&*row.kind));
+    let more = solvers.count() + 1;
+    let files = rendered(&[summary]);
+    let page = &files["index.html"];
+    let chapter = page.split("<section id=\"dahl-gamma-sweep\"").nth(1).unwrap();
+    for text in [chapter, &files["dahl-gamma-sweep/README.md"]] {
+        let fold = format!("<summary>More figures: {more}</summary>");
+        let (shown, folded) = text.split_once(&fold).unwrap_or_else(|| panic!("no {fold}"));
+        assert_eq!(text.matches("More figures").count(), 1, "one fold for the chapter");
+        let name = |name: &str| format!("id=\"dahl-gamma-sweep--{name}\"");
+        assert!(shown.contains(&name("fig01")) && !shown.contains(&name("fig08")));
+        let place = |figure: &str| folded.find(&name(figure)).unwrap();
+        assert!(place("fig08") < place("fig01-orders"), "what is put aside comes first");
+    }
+    let glance = page.split("<summary>All figures at a glance").nth(1).unwrap();
+    let glance = glance.split("</details>").next().unwrap();
+    assert!(glance.contains("class=\"thumbs\""), "the thumbnails are not folded");
 }
 
 #[test]

@@ -12,7 +12,7 @@ const BOUNDS: [(f64, &str); 3] = [(1e-3, "10⁻³"), (1e-6, "10⁻⁶"), (1e-8, 
 /// The table: a problem in each row, a bound in each column.
 pub(super) fn table(problems: &[Problem]) -> Table {
     let winners: Vec<[Option<&CaseRow>; 3]> =
-        problems.iter().map(|p| BOUNDS.map(|(bound, _)| cheapest(ordered(p), bound))).collect();
+        problems.iter().map(|p| BOUNDS.map(|(bound, _)| cheapest(p.ordered(), bound))).collect();
     let cell = |case: Option<&CaseRow>| {
         case.map_or_else(
             || number::NONE.to_owned(),
@@ -36,11 +36,6 @@ pub(super) fn table(problems: &[Problem]) -> Table {
         grid: Grid { head, rows: rows.collect(), class: "words", words: 4 },
         folded: true,
     }
-}
-
-/// The problem's runs in the order of the solvers, so that the first of equals is always the same.
-fn ordered<'a>(problem: &Problem<'a>) -> impl Iterator<Item = &'a CaseRow> {
-    by_solver(problem.cases.iter().copied()).into_iter().flat_map(|(_, cases)| cases)
 }
 
 /// Who is the cheapest most often at one bound, in words.

@@ -31,7 +31,7 @@ struct Row<'a> {
 struct Cell<'a> {
     /// The run shown: of several the worst.
     case: &'a CaseRow,
-    /// Whether any run of the solver there, at any control, is a silent failure.
+    /// Whether it, or one of the others of several, is a silent failure.
     silent: bool,
 }
 
@@ -131,10 +131,10 @@ fn severity(case: &CaseRow) -> f64 {
 impl<'a> Row<'a> {
     /// What the map shows of a solver here, if it was run.
     fn cell(&'a self, solver: &'a str) -> Option<Cell<'a>> {
-        let runs = self.problems.iter().filter_map(|problem| shown(problem, solver));
-        let case = runs.max_by(|a, b| severity(a).total_cmp(&severity(b)))?;
-        let lies = |p: &&Problem| p.of(solver).any(|case| p.silence(case).is_some());
-        Some(Cell { case, silent: self.problems.iter().any(lies) })
+        let runs = self.problems.iter().filter_map(|p| Some((p, shown(p, solver)?)));
+        let silent = runs.clone().any(|(problem, case)| problem.silence(case).is_some());
+        let worst = runs.max_by(|a, b| severity(a.1).total_cmp(&severity(b.1)));
+        worst.map(|(_, case)| Cell { case, silent })
     }
 }
 
@@ -213,7 +213,7 @@ impl<'a> Map<'a> {
                     note.push(cell.case.status.clone());
                 }
                 if cell.silent {
-                    note.push("a run of this solver here said solved and was not".to_owned());
+                    note.push("said solved and was not".to_owned());
                 }
                 all.push(Datum {
                     panel: format!("{}: {}", self.titles[row.chapter], row.name),
@@ -281,13 +281,14 @@ fn draw_key(canvas: &Canvas) -> Result<(), Fault> {
     canvas.text("✗", (x + 15.0, 10.0), Side::Middle, Ink::Text)?;
     canvas.text("failed", (x + 35.0, 10.0), Side::Right, Ink::Text)?;
     x += 35.0 + text_width("failed") + 14.0;
-    canvas.text("! a silent failure there, at some control", (x, 10.0), Side::Right, Ink::Text)
+    canvas.text("! said solved and was not", (x, 10.0), Side::Right, Ink::Text)
 }
 
 /// How the map is read.
 pub(crate) const READS: &str = "A number k stands for a largest error of at most 10^k, relative. \
      Fixed steps are shown at the finest step of their study, step control at the tolerance next to 10⁻⁶, \
-     both restarted at corners where that was run.";
+     both restarted at corners where that was run. \
+     An empty cell is a solver that was not run on that problem.";
 
 #[cfg(test)]
 mod tests {

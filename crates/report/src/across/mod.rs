@@ -2,6 +2,7 @@
 
 mod cheapest;
 mod heat;
+mod opening;
 mod tables;
 
 pub(crate) use heat::READS;
@@ -64,6 +65,11 @@ impl<'a> Problem<'a> {
         self.cases.iter().copied().filter(move |case| case.solver == solver)
     }
 
+    /// The runs in the order of the solvers, so that the first of equals is always the same.
+    fn ordered(&self) -> impl Iterator<Item = &'a CaseRow> {
+        by_solver(self.cases.iter().copied()).into_iter().flat_map(|(_, cases)| cases)
+    }
+
     /// The study and the point, as in `fig01, γ = 0.25`.
     fn name(&self) -> String {
         match self.point {
@@ -105,8 +111,10 @@ pub(crate) struct Table {
 /// The section.
 #[derive(Debug)]
 pub(crate) struct Across {
-    /// What is compared, and relative to what.
+    /// What was found, and the terms it is said in.
     pub(crate) text: Vec<String>,
+    /// What is counted and how; it stands folded.
+    pub(crate) counted: Vec<String>,
     /// The map of errors.
     pub(crate) map: Drawing,
     /// The tables, in the order of reading.
@@ -115,6 +123,8 @@ pub(crate) struct Across {
 
 /// The title of the section.
 pub(crate) const TITLE: &str = "The solvers across all experiments";
+/// The title of the fold behind what was found.
+pub(crate) const COUNTED: &str = "How it is counted";
 /// The title of the map.
 pub(crate) const MAP: &str = "The error each solver delivers on each problem";
 /// The name of the map's files.
@@ -138,8 +148,10 @@ impl Across {
             tables.extend((!own.is_empty()).then(|| tables::matrix(&own, &solvers)));
         }
         let budgets = problems.iter().map(|problem| problem.budget);
-        let text = text(&problems, solvers.len(), budgets);
-        Ok(Some(Self { text, map: heat::draw(&problems, &solvers, &titles)?, tables }))
+        let text =
+            vec![opening::findings(&problems, &solvers), opening::terms(chapters, &problems)];
+        let (counted, map) = (counted(budgets), heat::draw(&problems, &solvers, &titles)?);
+        Ok(Some(Self { text, counted, map, tables }))
     }
 
     /// The map's own files.
@@ -177,9 +189,8 @@ fn problems<'a>(chapters: &[Chapter<'a>]) -> Vec<Problem<'a>> {
     all
 }
 
-/// What is compared, in words.
-fn text(problems: &[Problem], solvers: usize, budgets: impl Iterator<Item = u64>) -> Vec<String> {
-    let runs: usize = problems.iter().map(|problem| problem.cases.len()).sum();
+/// What is counted, in words.
+fn counted(budgets: impl Iterator<Item = u64>) -> Vec<String> {
     let (least, most) = budgets.fold((u64::MAX, 0), |(a, b), n| (a.min(n), b.max(n)));
     let budget = match (least, most) {
         (least, most) if least > most => String::new(),
@@ -188,13 +199,10 @@ fn text(problems: &[Problem], solvers: usize, budgets: impl Iterator<Item = u64>
     };
     vec![
         format!(
-            "{solvers} solvers, {} problems (a study at one point of its sweep), {} runs. \
-             An error is the largest of its run, relative to the largest response of the study’s reference: \
-             the force where the motion is imposed, the displacement or the angle where a plant is driven. \
-             A cost is a count of evaluations of the right-hand side, not a time; Jacobians are counted apart. \
+            "The response is the force where the motion is imposed, the displacement or the angle where a plant \
+             is driven; an error is relative to its largest value in the study’s reference. \
+             A cost is a count and not a time; Jacobians are counted apart. \
              A run that exceeds its study’s budget of evaluations{budget} has failed: at another price it might not.",
-            problems.len(),
-            number::count(u64::try_from(runs).unwrap_or(u64::MAX)),
         ),
         "A *silent failure* is a run that said solved and was not: *gross* if its largest error is above 0.1, \
          *missed by three digits* if a method with step control is above 1000 times its relative tolerance. \

@@ -137,7 +137,7 @@ pub(super) fn lies(problems: &[Problem]) -> Option<Table> {
         reads: "Of each solver in each study the worst run, after + how many more; step control first, then fixed steps."
             .to_owned(),
         grid: Grid { head: head.map(str::to_owned).to_vec(), rows, class: "lies", words: 3 },
-        folded: false,
+        folded: true,
     })
 }
 

@@ -35,11 +35,13 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
             Axis { label: label.to_owned(), from, to, log, at: Vec::new() }.checked()
         };
         let lines = lines(&rows, panel, &names, alone);
+        let lane = failures(figure, summary, panel, &lines);
         Chart {
             title: number::point(&panel.panel),
             x: axis(&panel.x, panel.x_min, panel.x_max, panel.x_log),
             y: axis(&panel.y, panel.y_min, panel.y_max, panel.y_log),
-            lane: failures(figure, summary, panel, &lines),
+            unnamed: lines.len() < 2 && lane.is_empty(),
+            lane,
             lines: lines.into_iter().map(|(_, line)| line).collect(),
             size,
             ..Chart::default()

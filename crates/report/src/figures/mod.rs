@@ -63,7 +63,7 @@ pub const FIGURES: &[FigureKind] = &[
     FigureKind {
         name: "work_precision",
         reads: "Grey lines repeat the other panel of the row. \
-                Letters in the margin lane are failed runs, at the work they had spent.",
+                Letters in the margin lane are failed runs, at the work they had spent, or at the edge if that lies beyond it.",
         of_solvers: true,
         draw: work_precision::draw,
     },

@@ -7,7 +7,7 @@ use super::convergence::{add, error_axis, title};
 use super::{Drawing, of_charts};
 use crate::ReportError;
 use crate::plot::{Axis, Chart};
-use crate::select::{by_solver, corners_in_words, distinct, select};
+use crate::select::{SOLVED, by_solver, corners_in_words, distinct, select};
 use record::{CaseRow, FigureRow, Summary};
 
 /// A row of panels for each sweep point; where both treatments of corners were run, the restarted ones.
@@ -16,7 +16,11 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
     let corners = cases.corners().first().map(|name| (*name).to_owned()).unwrap_or_default();
     cases.cases.retain(|case| case.corners == corners);
     let work = |case: &CaseRow| case.evaluations.max(1) as f64;
-    let x = Axis::tight("evaluations", cases.cases.iter().map(|case| work(case)));
+    // A run that failed spent its budget: it would squeeze those that solved, and stands at the edge instead.
+    let all = cases.cases.iter();
+    let solved: Vec<f64> = all.clone().filter(|c| c.status == SOLVED).map(|c| work(c)).collect();
+    let set_by = if solved.is_empty() { all.map(|c| work(c)).collect() } else { solved };
+    let x = Axis::tight("evaluations", set_by.into_iter());
     let y = error_axis(&cases);
     let mut controls = distinct(cases.cases.iter().map(|case| case.control.as_str()));
     controls.sort_by_key(|name| std::cmp::Reverse(*name));

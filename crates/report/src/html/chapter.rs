@@ -18,20 +18,24 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
     if !summary.about("paper").is_empty() {
         put!(out, "<p class=\"place\">{}</p>\n", prose::html(summary.about("paper")));
     }
-    let (first, rest) =
-        summary.about("text").split_once("\n\n").unwrap_or((summary.about("text"), ""));
-    out.push_str(&paragraphs(first));
-    if !rest.trim().is_empty() {
-        put!(out, "<details><summary>More of it</summary>\n{}</details>\n", paragraphs(rest));
-    }
-    for study in &summary.studies {
+    write_text(out, summary.about("text"));
+    let (shown, more): (Vec<&StudyRow>, Vec<&StudyRow>) =
+        summary.studies.iter().partition(|row| !chapter.figures_of(&row.study).is_empty());
+    for study in shown {
         write_study(out, chapter, study);
     }
-    let [model, solvers] = chapter.figures_of("");
-    for figure in model {
+    for figure in chapter.figures_of("") {
         write_figure(out, chapter, figure);
     }
-    write_folded(out, chapter, &solvers);
+    write_folded(out, chapter);
+    if !more.is_empty() {
+        put!(out, "<details><summary>More studies: {}</summary>\n", more.len());
+        for study in more {
+            put!(out, "<h3>{}</h3>\n", prose::html(heading(study)));
+            write_told(out, study, &study.text);
+        }
+        out.push_str("</details>\n");
+    }
     if let Some(table) = grid::measures(summary) {
         put!(
             out,
@@ -51,43 +55,45 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
     out.push_str("</section>\n");
 }
 
-/// A study: its first sentence and the figures of the model; one without figures stands folded as a whole.
-fn write_study(out: &mut String, chapter: &Chapter, study: &StudyRow) {
-    let name = prose::html(heading(study));
-    let [model, solvers] = chapter.figures_of(&study.study);
-    let (first, rest) = if model.is_empty() {
-        (String::new(), study.text.clone())
-    } else {
-        split_first(&study.text)
-    };
-    if model.is_empty() {
-        put!(out, "<details><summary>{name}</summary>\n{}", paragraphs(&rest));
-    } else {
-        put!(out, "<h3>{name}</h3>\n{}", paragraphs(&first));
-        put!(out, "<details><summary>The study</summary>\n{}", paragraphs(&rest));
+/// The text of the experiment: what the model is and what is asked of it, in two sentences, the others folded.
+fn write_text(out: &mut String, text: &str) {
+    let (opening, others) = text.split_once("\n\n").unwrap_or((text, ""));
+    let (first, rest) = split_first(opening);
+    let (second, rest) = split_first(&rest);
+    out.push_str(&paragraphs(&format!("{first} {second}")));
+    let rest = paragraphs(&rest) + &paragraphs(others);
+    if !rest.is_empty() {
+        put!(out, "<details><summary>More of it</summary>\n{rest}</details>\n");
     }
-    out.push_str("<dl class=\"study\">");
+}
+
+/// A study: its first sentence and the figures of the model, all else folded.
+fn write_study(out: &mut String, chapter: &Chapter, study: &StudyRow) {
+    let (first, rest) = split_first(&study.text);
+    put!(out, "<h3>{}</h3>\n{}", prose::html(heading(study)), paragraphs(&first));
+    out.push_str("<details><summary>The study</summary>\n");
+    write_told(out, study, &rest);
+    out.push_str("</details>\n");
+    for figure in chapter.figures_of(&study.study) {
+        write_figure(out, chapter, figure);
+    }
+}
+
+fn write_told(out: &mut String, study: &StudyRow, text: &str) {
+    put!(out, "{}<dl class=\"study\">", paragraphs(text));
     for (key, text) in told(study) {
         put!(out, "<dt>{key}<dd>{}", prose::html(&text));
     }
-    out.push_str("</dl>\n</details>\n");
-    for figure in model {
-        write_figure(out, chapter, figure);
-    }
-    write_folded(out, chapter, &solvers);
+    out.push_str("</dl>\n");
 }
 
-/// Figures of how the solvers did, folded.
-fn write_folded(out: &mut String, chapter: &Chapter, figures: &[&Figure]) {
+/// The figures put aside and those of how the solvers did, all of the chapter in one fold.
+fn write_folded(out: &mut String, chapter: &Chapter) {
+    let figures = chapter.more_figures();
     if figures.is_empty() {
         return;
     }
-    let count = figures.len();
-    let figures_of = if count == 1 { "figure" } else { "figures" };
-    put!(
-        out,
-        "<details class=\"figures\"><summary>How the solvers did: {count} {figures_of}</summary>\n"
-    );
+    put!(out, "<details class=\"figures\"><summary>More figures: {}</summary>\n", figures.len());
     for figure in figures {
         write_figure(out, chapter, figure);
     }

@@ -2,9 +2,9 @@
 
 use super::{code, solvers};
 use crate::across::{Across, TITLE};
-use crate::chapter::{
-    Chapter, Figure, OPEN, PAPER, count_of_claims, decided, few_held, holds, in_short, open_claims,
-    ours, sign, split_first,
+use crate::chapter::{Chapter, Figure, PAPER};
+use crate::claims::{
+    HELD, OPEN, Part, decided, few_held, in_short, of_part, ours, sign, tally, undecided,
 };
 use crate::escape::{html, slug};
 use crate::number;
@@ -12,23 +12,27 @@ use crate::plot::thumbnail;
 use crate::prose;
 use record::ClaimRow;
 
+/// A claim with its chapter.
+type Judged<'a, 'b> = (&'b Chapter<'a>, &'a ClaimRow);
+
 /// Writes the front.
 pub(super) fn write(out: &mut String, chapters: &[Chapter], across: Option<&Across>) {
     let claims: Vec<&ClaimRow> = chapters.iter().flat_map(|c| &c.summary.claims).collect();
     put!(
         out,
         "<header>\n<h1>Duhem</h1>\n<p>{PAPER}</p>\n<p class=\"count\">{}</p>\n</header>\n",
-        html(&count_of_claims(&claims))
+        html(&tally(&claims))
     );
-    let open = open_claims(chapters);
-    let held = chapters.iter().any(|chapter| !chapter.held_claims().is_empty());
+    let [no, open, held, own] = [Part::Contradicted, Part::Undecided, Part::Reproduced, Part::Ours]
+        .map(|part| of_part(chapters, part));
+    let held = !held.is_empty() || !own.is_empty();
     let drawn = chapters.iter().any(|chapter| !chapter.figures.is_empty());
     out.push_str("<nav aria-label=\"Contents\"><ol>\n");
     let parts = [
-        (!open.is_empty(), "claims", "What does not hold"),
-        (held, "held", "What holds"),
+        (!no.is_empty() || !open.is_empty(), "claims", OPEN),
+        (held, "held", HELD),
         (across.is_some(), "solvers", TITLE),
-        (drawn, "figures", "Figures"),
+        (drawn, "figures", "All figures"),
     ];
     for (_, id, name) in parts.iter().filter(|(there, _, _)| *there) {
         put!(out, "<li><a href=\"#{id}\">{name}</a>\n");
@@ -38,7 +42,7 @@ pub(super) fn write(out: &mut String, chapters: &[Chapter], across: Option<&Acro
         put!(out, "<li><a href=\"#{id}\">{title}</a>\n");
     }
     out.push_str("<li><a href=\"#made\">How it was made</a>\n</ol></nav>\n");
-    write_open(out, &open);
+    write_open(out, &no, &open);
     if held {
         write_held(out, chapters);
     }
@@ -48,21 +52,32 @@ pub(super) fn write(out: &mut String, chapters: &[Chapter], across: Option<&Acro
     write_thumbnails(out, chapters);
 }
 
-/// What does not hold, with the first sentence of the reason.
-fn write_open(out: &mut String, open: &[(&Chapter, &ClaimRow)]) {
-    if open.is_empty() {
+/// What does not hold, a row each; behind it, folded, what is not decided by what is printed.
+fn write_open(out: &mut String, no: &[Judged], open: &[Judged]) {
+    if no.is_empty() && open.is_empty() {
         return;
     }
-    put!(
-        out,
-        "<section>\n<h2 id=\"claims\">{OPEN}</h2>\n<table class=\"claims\"><thead><tr>\
-         <th scope=\"col\">Verdict<th scope=\"col\">The paper says<th scope=\"col\">Printed\
-         <th scope=\"col\">Ours</thead>\n"
+    put!(out, "<section>\n<h2 id=\"claims\">{OPEN}</h2>\n");
+    if !no.is_empty() {
+        write_claims(out, no);
+    }
+    if !open.is_empty() {
+        put!(out, "<details><summary>Not decided: {}</summary>\n", undecided(open));
+        write_claims(out, open);
+        out.push_str("</details>\n");
+    }
+    out.push_str("</section>\n");
+}
+
+fn write_claims(out: &mut String, claims: &[Judged]) {
+    out.push_str(
+        "<table class=\"claims\"><thead><tr><th scope=\"col\">Verdict<th scope=\"col\">The paper says\
+         <th scope=\"col\">Printed<th scope=\"col\">Ours</thead>\n",
     );
-    for (chapter, claim) in open {
+    for (chapter, claim) in claims {
         write_claim(out, chapter, claim);
     }
-    out.push_str("</table>\n</section>\n");
+    out.push_str("</table>\n");
 }
 
 /// The style of a verdict.
@@ -75,37 +90,30 @@ fn class(claim: &ClaimRow) -> &'static str {
     }
 }
 
+/// One compact row, and all there is to say folded under it.
 fn write_claim(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
-    let note = holds(claim);
-    let note = if note.is_empty() { String::new() } else { format!("<small>{note}</small>") };
-    let printed = number::printed(claim.printed, claim.digits, &claim.unit);
-    let (why, rest) = split_first(&claim.why);
+    let cell = |name: &str, number: &str| {
+        let none = if number == number::NONE { " none" } else { "" };
+        format!("<td data-label=\"{name}\" class=\"n{none}\">{}", html(number))
+    };
     put!(
         out,
         "<tbody id=\"claim--{id}\"><tr><td rowspan=\"2\"><span class=\"verdict {class}\">\
-         <b aria-hidden=\"true\">{sign}</b>{verdict}</span>{note}\
-         <td class=\"says\">{says}<small>{place}</small><td data-label=\"Printed\" class=\"n\">{printed}\
-         <td data-label=\"Ours\" class=\"n\">{ours}\
-         <tr><td colspan=\"3\" class=\"why\"><p>{why}</p>{more}</tbody>\n",
+         <b aria-hidden=\"true\">{sign}</b>{verdict}</span><td class=\"says\">{says}{printed}{ours}\
+         <tr><td colspan=\"3\" class=\"why\"><details><summary>Why</summary>{told}</details></tbody>\n",
         id = slug(&claim.id),
         class = class(claim),
         sign = sign(&claim.verdict),
         verdict = html(&claim.verdict),
         says = prose::html(&claim.says),
-        place = html(&claim.place),
-        printed = html(&printed),
-        ours = html(&ours(claim)),
-        why = prose::html(&why),
-        more = more(chapter, claim, &rest)
+        printed = cell("Printed", &number::printed(claim.printed, claim.digits, &claim.unit)),
+        ours = cell("Ours", &ours(claim)),
+        told = told(chapter, claim)
     );
 }
 
-/// What is told of a claim on request, folded.
-fn more(chapter: &Chapter, claim: &ClaimRow, why: &str) -> String {
-    format!("<details><summary>More</summary>{}</details>", told(chapter, claim, why))
-}
-
-fn told(chapter: &Chapter, claim: &ClaimRow, why: &str) -> String {
+/// What is told of a claim on request.
+fn told(chapter: &Chapter, claim: &ClaimRow) -> String {
     let mut lines = vec![format!("{} · {}", html(&claim.place), html(&claim.id))];
     lines.extend(decided(claim).map(|text| prose::html(&text)));
     if let Some(figure) = chapter.shown(claim) {
@@ -114,67 +122,70 @@ fn told(chapter: &Chapter, claim: &ClaimRow, why: &str) -> String {
     if !claim.code.is_empty() {
         lines.push(code(&claim.code));
     }
-    format!("<p>{}<small>{}</small></p>", prose::html(why), lines.join("<br>"))
+    format!("<p>{}<small>{}</small></p>", prose::html(&claim.why), lines.join("<br>"))
 }
 
-/// What holds: a line each, by experiment, with all there is to say folded behind it.
+/// What holds: a line each, by experiment, with all there is to say folded behind it; our own statements last.
 fn write_held(out: &mut String, chapters: &[Chapter]) {
-    out.push_str("<section>\n<h2 id=\"held\">What holds</h2>\n");
+    put!(out, "<section>\n<h2 id=\"held\">{HELD}</h2>\n");
     let open = if few_held(chapters) { " open" } else { "" };
     for chapter in chapters {
-        let held = chapter.held_claims();
+        let held = chapter.claims_of(Part::Reproduced);
         if held.is_empty() {
             continue;
         }
-        put!(
-            out,
-            "<details{open}><summary>{}: {} hold</summary>\n",
-            html(chapter.title()),
-            held.len()
-        );
+        let title = html(chapter.title());
+        put!(out, "<details{open}><summary>{title}: {} reproduced</summary>\n", held.len());
         for claim in held {
-            let short = in_short(claim);
-            let short = match short.as_str() {
-                "" => String::new(),
-                short => format!(" <span class=\"n\">{}</span>", html(short)),
-            };
-            put!(
-                out,
-                "<details class=\"held\" id=\"claim--{id}\"><summary><span class=\"verdict {class}\">\
-                 <b title=\"{verdict}\">{sign}</b></span> {says}{short}</summary>{told}</details>\n",
-                id = slug(&claim.id),
-                class = class(claim),
-                verdict = html(&claim.verdict),
-                sign = sign(&claim.verdict),
-                says = prose::html(&claim.says),
-                told = told(chapter, claim, &claim.why)
-            );
+            write_line(out, chapter, claim);
+        }
+        out.push_str("</details>\n");
+    }
+    let own = of_part(chapters, Part::Ours);
+    if !own.is_empty() {
+        put!(out, "<details><summary>Statements of our own: {}</summary>\n", own.len());
+        for (chapter, claim) in own {
+            write_line(out, chapter, claim);
         }
         out.push_str("</details>\n");
     }
     out.push_str("</section>\n");
 }
 
+fn write_line(out: &mut String, chapter: &Chapter, claim: &ClaimRow) {
+    let short = match in_short(claim).as_str() {
+        "" => String::new(),
+        short => format!(" <span class=\"n\">{}</span>", html(short)),
+    };
+    put!(
+        out,
+        "<details class=\"held\" id=\"claim--{id}\"><summary><span class=\"verdict {class}\">\
+         <b title=\"{verdict}\">{sign}</b></span> {says}{short}</summary>{told}</details>\n",
+        id = slug(&claim.id),
+        class = class(claim),
+        verdict = html(&claim.verdict),
+        sign = sign(&claim.verdict),
+        says = prose::html(&claim.says),
+        told = told(chapter, claim)
+    );
+}
+
+/// Every figure once more, small and folded: the chapters show them large.
 fn write_thumbnails(out: &mut String, chapters: &[Chapter]) {
     if chapters.iter().all(|chapter| chapter.figures.is_empty()) {
         return;
     }
-    out.push_str("<section>\n<h2 id=\"figures\">Figures</h2>\n");
+    out.push_str(
+        "<section>\n<details class=\"data\" id=\"figures\"><summary>All figures at a glance</summary>\n",
+    );
     for chapter in chapters.iter().filter(|chapter| !chapter.figures.is_empty()) {
-        put!(out, "<h3>{}</h3>\n", html(chapter.title()));
-        let (solvers, model): (Vec<&Figure>, Vec<&Figure>) =
-            chapter.figures.iter().partition(|figure| figure.kind.of_solvers);
-        write_thumbs(out, &model);
-        if !solvers.is_empty() {
-            put!(out, "<details><summary>Of the solvers: {}</summary>\n", solvers.len());
-            write_thumbs(out, &solvers);
-            out.push_str("</details>\n");
-        }
+        put!(out, "<p><b>{}</b></p>\n", html(chapter.title()));
+        write_thumbs(out, &chapter.figures);
     }
-    out.push_str("</section>\n");
+    out.push_str("</details>\n</section>\n");
 }
 
-fn write_thumbs(out: &mut String, figures: &[&Figure]) {
+fn write_thumbs(out: &mut String, figures: &[Figure]) {
     out.push_str("<ul class=\"thumbs\">\n");
     for figure in figures {
         let drawing = &figure.drawing;

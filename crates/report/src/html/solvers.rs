@@ -1,6 +1,6 @@
 //! The solvers across all experiments.
 
-use crate::across::{Across, MAP, NAME, READS, TITLE, Table};
+use crate::across::{Across, COUNTED, MAP, NAME, READS, TITLE, Table};
 use crate::escape::html;
 use crate::plot::inline;
 use crate::prose;
@@ -11,6 +11,11 @@ pub(super) fn write(out: &mut String, across: &Across) {
     for text in &across.text {
         put!(out, "<p>{}</p>\n", prose::html(text));
     }
+    put!(out, "<details><summary>{COUNTED}</summary>\n");
+    for text in &across.counted {
+        put!(out, "<p>{}</p>\n", prose::html(text));
+    }
+    out.push_str("</details>\n");
     put!(
         out,
         "<figure id=\"solvers-map\" class=\"wide\" aria-labelledby=\"solvers-map-caption\">\

@@ -56,6 +56,8 @@ pub(crate) struct Chart {
     pub(crate) margin: (f64, usize),
     /// Room for the ticks' labels left of the plot [px], where panels share it; else their own width.
     pub(crate) left: f64,
+    /// Whether its lines go without names: what is alone needs none.
+    pub(crate) unnamed: bool,
     /// How often the thinning of its lines is doubled.
     pub(crate) coarse: u8,
 }
@@ -66,17 +68,22 @@ const LABEL: f64 = 14.5;
 pub(super) const NAME: f64 = 180.0;
 /// Left of the key of failures [px].
 const INDENT: f64 = 48.0;
+/// Right of a plot without names: half of a tick's label [px].
+const EDGE: f64 = 18.0;
 /// The piece of line before a label [px].
 pub(super) const SAMPLE: f64 = 18.0;
 
 /// Gives the panels of a figure the same margins, and those side by side the same foot:
 /// they are aligned at their lower ends.
 pub(crate) fn align(charts: &mut [Chart], columns: usize) {
-    let names = charts.iter().flat_map(|chart| {
+    let named = |chart: &&Chart| !chart.unnamed;
+    let any = charts.iter().any(|chart| !chart.unnamed);
+    let names = charts.iter().filter(named).flat_map(|chart| {
         let lane = chart.lane.iter().map(|row| labels::width(&row.name));
         chart.lines.iter().map(|line| labels::width(&line.label())).chain(lane)
     });
     let room = names.fold(0.0, f64::max).min(NAME) + 16.0 + SAMPLE;
+    let room = if any { room } else { EDGE };
     // Panels that stand below one another share their left edge too, as histories over one time do.
     let ticks = charts.iter().map(Chart::room_for_ticks).fold(0.0, f64::max);
     let left = if columns == 1 { ticks } else { 0.0 };
@@ -86,6 +93,11 @@ pub(crate) fn align(charts: &mut [Chart], columns: usize) {
         let lines = row.iter().map(key).max().unwrap_or(0);
         for chart in row {
             chart.margin = (room, lines);
+            // Beside others a plot without names is as wide as theirs; below them its edge stays at theirs.
+            if chart.unnamed && columns > 1 {
+                chart.size.0 -= room - EDGE;
+                chart.margin.0 = EDGE;
+            }
             chart.left = left;
             chart.size.1 = chart.size.1.max(tall);
         }
@@ -348,6 +360,9 @@ impl Chart {
             let end = places.iter().copied().reduce(|a, b| if b.0 >= a.0 { b } else { a });
             let end = end.map(|(x, y)| (x.min(frame.right), y.clamp(frame.top, frame.bottom)));
             ends.extend(end.map(|end| (end, Some(line), line.label())));
+        }
+        if self.unnamed {
+            return Ok(());
         }
         let mut labels: Vec<Label> = ends;
         for guide in &self.guides {
