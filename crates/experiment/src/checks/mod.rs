@@ -60,6 +60,7 @@ pub const CHECKS: &[Check] = &[
     plant::SETTLES_AT_F_C,
     plant::COMES_TO_REST,
     plant::STAIRCASE,
+    plant::EXCEEDS_F_S,
     plant::SAME_SLIP,
     plant::TOGETHER,
     plant::WITHIN_AXES,

@@ -40,11 +40,15 @@ check!(
     STAIRCASE, "staircase", "lugre", &[], true, staircase
 );
 check!(
+    /// Whether the friction exceeds F_S before the first slip.
+    EXCEEDS_F_S, "exceeds-f-s", "lugre", &[], true, exceeds_f_s
+);
+check!(
     /// Whether the first slip is the same whatever the swept parameter.
     SAME_SLIP, "same-slip", "lugre", &[], true, same_slip
 );
 check!(
-    /// Whether no mass gives both a rise and a lowest friction that round to the printed ones.
+    /// Whether a mass gives both a rise and a friction after the stop that round to the printed ones.
     TOGETHER, "rise-and-drop-together", "lugre", &["rise", "force"], true, together
 );
 check!(
@@ -202,6 +206,26 @@ fn staircase(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
     })
 }
 
+fn exceeds_f_s(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
+    let study = &plan.studies[subject.study];
+    let mut largest = 0.0_f64;
+    for point in &subject.points {
+        let f_s = LuGre::new(&study.points[*point].parameters).map_err(|e| e.to_string())?.f_s;
+        let peak =
+            seen(study, *point, |view| Ok(view.extreme_f((0.0, view.slip(1.0)?.onset), 1.0)))?;
+        largest = largest.max(peak / f_s);
+    }
+    Ok(Checked {
+        holds: largest > 1.0,
+        value: Some(largest),
+        error: None,
+        unit: "1",
+        how: "largest friction before the first slip in units of F_S, over all points of the sweep; it exceeds \
+              F_S above 1"
+            .to_owned(),
+    })
+}
+
 fn same_slip(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
     let study = &plan.studies[subject.study];
     let (mut low, mut high, mut slipless) = (f64::INFINITY, 0.0_f64, 0);
@@ -219,7 +243,7 @@ fn same_slip(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
     let without = if slipless == 0 {
         String::new()
     } else {
-        format!("; with {slipless} of the values there is no slip at all")
+        format!("; with {slipless} of the values the mass slides on and does not stop")
     };
     Ok(Checked {
         holds: apart < NEAR && slipless == 0,
@@ -242,8 +266,7 @@ fn together(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
     for point in &subject.points {
         let (ours, least) = seen(study, *point, |view| {
             let slip = view.slip(1.0)?;
-            let ringing = (slip.onset, slip.stop + RINGING);
-            Ok((view.q(slip.stop) - view.q(slip.onset), view.extreme_f(ringing, -1.0)))
+            Ok((view.q(slip.stop) - view.q(slip.onset), view.force(slip.stop + RINGING)))
         })?;
         words.push(format!("{}: {ours:.3} m, {least:.3} N", study.points[*point].label));
         let off = (ours - rise).abs() / rise_digit;
@@ -255,7 +278,7 @@ fn together(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
         error: None,
         unit: "1",
         how: format!(
-            "how far rise and lowest friction of the first slip are from the printed {rise} m and {force} N \
+            "how far the rise of the first slip and the friction 0.2 s after its stop are from the printed {rise} m and {force} N \
              together, in units of the last printed digit, at the best point of the sweep (they agree below 0.5): {}",
             words.join("; ")
         ),
@@ -336,7 +359,7 @@ fn equivalent(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
 fn rests(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
     let (study, point) = one(plan, subject)?;
     let [below] = subject.argument("below")?;
-    let share = seen(study, point, |view| Ok(view.rest_share(below)))?;
+    let share = seen(study, point, |view| Ok(view.rest_share(below, 20_000)))?;
     Ok(Checked {
         holds: share > 0.1,
         value: Some(share),

@@ -92,6 +92,7 @@ pub const QUANTITIES: &[Quantity] = &[
     plant::SLIP_FORCE_MIN,
     plant::SLIP_FORCE_REST,
     plant::SLIP_FORCE_DROP,
+    plant::SLIP_FORCE_AMPLITUDE,
     plant::STICK_DRIVE,
     plant::FULL_SLIPS,
     plant::REST_SHARE,

@@ -154,13 +154,12 @@ impl<'a> View<'a> {
         found.ok_or_else(|| format!("there are {} slips, not {number}", slips.len()))
     }
 
-    /// The share of the second half of the run in which the speed is below `speed` [m/s].
-    pub(crate) fn rest_share(&self, speed: f64) -> f64 {
-        /// The times at which it is looked at.
-        const LOOKS: u32 = 20_000;
+    /// The share of the second half of the run in which the speed is below `speed` [m/s], at so
+    /// many times.
+    pub(crate) fn rest_share(&self, speed: f64, looks: u32) -> f64 {
         let half = 0.5 * self.end();
-        let at = |i: u32| self.v(half * (1.0 + f64::from(i) / f64::from(LOOKS))).abs();
-        (0..=LOOKS).filter(|i| at(*i) < speed).count() as f64 / f64::from(LOOKS + 1)
+        let at = |i: u32| self.v(half * (1.0 + f64::from(i) / f64::from(looks))).abs();
+        (0..=looks).filter(|i| at(*i) < speed).count() as f64 / f64::from(looks + 1)
     }
 
     /// How often the motion turns while every element slips: all deflections at their deadbands.
@@ -237,7 +236,11 @@ mod tests {
             "without v_S nothing tells a slip"
         );
         // |cos t| is below 1/2 for a third of the time.
-        assert!((view.rest_share(0.5) - 1.0 / 3.0).abs() < 1e-3, "{}", view.rest_share(0.5));
+        assert!(
+            (view.rest_share(0.5, 20_000) - 1.0 / 3.0).abs() < 1e-3,
+            "{}",
+            view.rest_share(0.5, 20_000)
+        );
     }
 
     #[test]
