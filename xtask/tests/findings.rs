@@ -2,18 +2,13 @@
 
 mod common;
 
-use common::run::{experiments, tables};
+use common::run::{self, experiments, named, tables};
 use record::{CaseRow, OrderRow, Summary};
-use std::{collections::BTreeMap, sync::OnceLock};
+use std::sync::OnceLock;
 
 fn dahl() -> &'static Summary {
     static TABLES: OnceLock<Summary> = OnceLock::new();
-    TABLES.get_or_init(|| {
-        let paths = experiments();
-        let path =
-            paths.iter().find(|p| p.ends_with("dahl-gamma-sweep.toml")).expect("the γ sweep");
-        tables(path)
-    })
+    TABLES.get_or_init(|| named("dahl-gamma-sweep.toml"))
 }
 
 fn order<'a>(tables: &'a Summary, point: &str, solver: &str, corners: &str) -> &'a OrderRow {
@@ -192,20 +187,7 @@ fn explicit_euler_diverges_nowhere_that_dissipation_holds_it() {
 
 /// The fewest evaluations, Jacobians included, with which each solver reaches an error, with restart.
 fn fewest(study: &str, point: &str, error: f64) -> Vec<(u64, &'static str)> {
-    let mut found: BTreeMap<&str, u64> = BTreeMap::new();
-    for row in &dahl().cases {
-        let names =
-            (row.study.as_str(), row.point.as_str(), row.corners.as_str(), row.status.as_str());
-        if names == (study, point, "restart", "solved") && row.error_max.is_some_and(|e| e <= error)
-        {
-            let work = row.evaluations + row.jacobians;
-            let least = found.entry(&row.solver).or_insert(work);
-            *least = work.min(*least);
-        }
-    }
-    let mut found: Vec<_> = found.into_iter().map(|(solver, work)| (work, solver)).collect();
-    found.sort_unstable();
-    found
+    run::fewest(dahl(), (study, point), error)
 }
 
 #[test]

@@ -2,17 +2,13 @@
 
 mod common;
 
-use common::run::{experiments, tables};
+use common::run::{self, named};
 use record::{CaseRow, ClaimRow, Summary};
-use std::{collections::BTreeMap, sync::OnceLock};
+use std::sync::OnceLock;
 
 fn lugre() -> &'static Summary {
     static TABLES: OnceLock<Summary> = OnceLock::new();
-    TABLES.get_or_init(|| {
-        let paths = experiments();
-        let path = paths.iter().find(|p| p.ends_with("lugre-rate-dependence.toml"));
-        tables(path.expect("the LuGre experiment"))
-    })
+    TABLES.get_or_init(|| named("lugre-rate-dependence.toml"))
 }
 
 fn order(study: &str, solver: &str, corners: &str) -> f64 {
@@ -128,18 +124,7 @@ fn the_shipped_dop853_is_right_where_the_speed_is_constant_and_steps_over_its_ju
 
 /// The fewest evaluations, Jacobians included, with which each solver reaches an error, with restart.
 fn fewest(study: &str, error: f64) -> Vec<(u64, &'static str)> {
-    let mut found: BTreeMap<&str, u64> = BTreeMap::new();
-    for row in &lugre().cases {
-        let names = (row.study.as_str(), row.corners.as_str(), row.status.as_str());
-        if names == (study, "restart", "solved") && row.error_max.is_some_and(|e| e <= error) {
-            let work = row.evaluations + row.jacobians;
-            let least = found.entry(&row.solver).or_insert(work);
-            *least = work.min(*least);
-        }
-    }
-    let mut found: Vec<_> = found.into_iter().map(|(solver, work)| (work, solver)).collect();
-    found.sort_unstable();
-    found
+    run::fewest(lugre(), (study, ""), error)
 }
 
 #[test]

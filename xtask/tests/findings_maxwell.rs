@@ -2,17 +2,13 @@
 
 mod common;
 
-use common::run::{experiments, tables};
+use common::run::named;
 use record::{CaseRow, Summary};
 use std::sync::OnceLock;
 
 fn maxwell() -> &'static Summary {
     static TABLES: OnceLock<Summary> = OnceLock::new();
-    TABLES.get_or_init(|| {
-        let paths = experiments();
-        let path = paths.iter().find(|p| p.ends_with("maxwell-slip-nonlocal-memory.toml"));
-        tables(path.expect("the Maxwell-slip experiment"))
-    })
+    TABLES.get_or_init(|| named("maxwell-slip-nonlocal-memory.toml"))
 }
 
 fn measure(id: &str) -> f64 {

@@ -4,25 +4,20 @@
 
 mod common;
 
-use common::run::{experiments, tables};
+use common::run::{experiments, named};
 use experiment::Plan;
 use record::{CaseRow, Summary};
 use simulation::energy::{Contact, account};
 use std::sync::OnceLock;
 
-fn of(name: &str) -> Summary {
-    let paths = experiments();
-    tables(paths.iter().find(|p| p.ends_with(name)).expect("the experiment"))
-}
-
 fn staircase() -> &'static Summary {
     static TABLES: OnceLock<Summary> = OnceLock::new();
-    TABLES.get_or_init(|| of("mass-spring-staircase.toml"))
+    TABLES.get_or_init(|| named("mass-spring-staircase.toml"))
 }
 
 fn gearbox() -> &'static Summary {
     static TABLES: OnceLock<Summary> = OnceLock::new();
-    TABLES.get_or_init(|| of("gearbox.toml"))
+    TABLES.get_or_init(|| named("gearbox.toml"))
 }
 
 fn case<'a>(tables: &'a Summary, study: &str, solver: &str, value: f64) -> &'a CaseRow {

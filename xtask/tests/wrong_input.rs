@@ -277,3 +277,33 @@ fn a_file_that_can_name_no_experiment_is_refused() {
         assert!(project.files("reports").is_empty());
     }
 }
+
+/// A plant that can be read and has no answer is the TOML's mistake, found where it is solved for.
+#[test]
+fn a_plant_without_an_answer_is_told_with_its_study() {
+    const PLANT: &str = r#"title = "plant"
+paper = "none"
+text  = "A test."
+
+[[study]]
+name      = "held"
+title     = "Held"
+model     = { name = "dahl", f_c = 0.75, sigma = 7.5, gamma = 1.0 }
+plant     = { kind = "mass-spring", mass = 1.0, stiffness = 1.5 }
+input     = { shape = "sine", amplitude = 5.0, omega = 1.0 }
+span      = 5.0
+reference = "dahl"
+"#;
+    let right = Project::new(&[("plant.toml", PLANT)]).run(&["reproduce", "plant"]);
+    assert_eq!(right.code, Some(0), "{right:?}");
+    for (from, to, word) in [
+        ("gamma = 1.0", "gamma = 0.5", "at least 1"),
+        ("mass = 1.0", "mass = 1e-50", "steps"),
+        ("reference = \"dahl\"", "reference = \"lugre\"", "the study's model"),
+    ] {
+        let ran = Project::new(&[("plant.toml", &PLANT.replacen(from, to, 1))])
+            .run(&["reproduce", "plant"]);
+        assert_eq!(ran.code, Some(4), "`{to}`: {ran:?}");
+        assert!(ran.err.contains("plant.toml") && ran.err.contains(word), "`{to}`: {}", ran.err);
+    }
+}

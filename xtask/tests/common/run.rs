@@ -3,6 +3,7 @@
 use experiment::{Options, Plan, run, summary};
 use record::{Store, Summary};
 use std::{
+    collections::BTreeMap,
     path::{Path, PathBuf},
     sync::{Arc, atomic::AtomicBool},
     thread,
@@ -34,4 +35,33 @@ pub(crate) fn tables(path: &Path) -> Summary {
     };
     let finished = run(&plan, &options, &|_| ()).expect("all cases");
     summary(&plan, &finished).expect("the tables")
+}
+
+/// The tables of the experiment in this file.
+pub(crate) fn named(file: &str) -> Summary {
+    let paths = experiments();
+    tables(paths.iter().find(|path| path.ends_with(file)).unwrap_or_else(|| panic!("no {file}")))
+}
+
+/// The fewest evaluations, Jacobians included, with which each solver reaches an error at a point of a study,
+/// with restart.
+pub(crate) fn fewest<'a>(
+    tables: &'a Summary,
+    (study, point): (&str, &str),
+    error: f64,
+) -> Vec<(u64, &'a str)> {
+    let mut found: BTreeMap<&str, u64> = BTreeMap::new();
+    for row in &tables.cases {
+        let names =
+            (row.study.as_str(), row.point.as_str(), row.corners.as_str(), row.status.as_str());
+        if names == (study, point, "restart", "solved") && row.error_max.is_some_and(|e| e <= error)
+        {
+            let work = row.evaluations + row.jacobians;
+            let least = found.entry(&row.solver).or_insert(work);
+            *least = work.min(*least);
+        }
+    }
+    let mut found: Vec<_> = found.into_iter().map(|(solver, work)| (work, solver)).collect();
+    found.sort_unstable();
+    found
 }
