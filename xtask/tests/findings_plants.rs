@@ -183,3 +183,19 @@ fn the_energy_of_every_plant_of_the_paper_balances() {
     }
     assert!(plants >= 18, "only {plants} plants");
 }
+
+/// Two ways that agree to the last digit would be one: the stated error is no rounding.
+#[test]
+fn the_two_ways_of_every_plant_are_two() {
+    let measures = staircase().measures.iter().chain(&gearbox().measures);
+    let lengths = measures.filter(|m| {
+        m.method.starts_with("the plant solved") && ["m", "rad"].contains(&m.unit.as_str())
+    });
+    let mut seen = 0;
+    for row in lengths {
+        let rounding = 160.0 * f64::EPSILON * row.value.abs();
+        assert!(row.error > 2.0 * rounding, "{}: {} ± {:e}", row.id, row.value, row.error);
+        seen += 1;
+    }
+    assert!(seen >= 25, "only {seen} displacements");
+}
