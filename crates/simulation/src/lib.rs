@@ -8,21 +8,26 @@
 //! [`DrivenPlant`], the two of them; [`Path`], a plant's motion once solved. Then [`PlantReference`], by which
 //! the solvers of a plant are judged.
 
+pub mod adaptive;
 pub mod displacement;
 mod driven;
 pub mod energy;
 mod error;
 pub mod exact;
+mod methods;
 mod motion;
 mod path;
 pub mod plant_reference;
 mod prescribed;
 pub mod properties;
+mod task;
 
 pub use driven::DrivenPlant;
 pub use energy::Energy;
 pub use error::SimulationError;
+pub use methods::{Delivered, Method, NotHere, Own, Solves, method, methods};
 pub use motion::Motion;
 pub use path::Path;
 pub use plant_reference::{PLANT_REFERENCES, PlantReference, PlantReferenceEntry};
 pub use prescribed::PrescribedMotion;
+pub use task::Task;
