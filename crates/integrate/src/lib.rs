@@ -11,6 +11,7 @@
 //! Read first: [`Dynamics`], the right-hand side and what a *piece* of it is; [`Solver`], one entry
 //! of the list; [`Run`], what comes back.
 
+pub mod collocation;
 mod faulty;
 mod libraries;
 mod newton;

@@ -3,7 +3,9 @@
 //! They are compiled for a friction model and use what a library cannot know of it: where it has kinks,
 //! that LuGre is linear in x, that Dahl has a power series.
 
+mod stiff_plant;
+
 use crate::Own;
 
 /// Our own adaptive methods.
-pub const ADAPTIVE: &[Own] = &[];
+pub const ADAPTIVE: &[Own] = &[stiff_plant::METHOD];
