@@ -8,6 +8,7 @@
 
 mod arc;
 mod energy;
+mod method;
 mod sample;
 mod turn;
 
@@ -15,6 +16,8 @@ use crate::{
     SimulationError,
     error::{check_span, deflections},
 };
+pub(super) use method::METHOD;
+
 use arc::{Arc, Point};
 use duhem::{Harmonic, Input, MaxwellSlip, Plant, sgn};
 use turn::{bisect, first_turn};
@@ -96,7 +99,12 @@ impl SlipPlant {
     pub fn solve(&self, y0: &[f64], span: (f64, f64)) -> Result<ExactSolution, SimulationError> {
         self.check(span)?;
         let z = deflections(&self.model, y0)?;
-        let mut now = Now { t: span.0, q: y0[0], v: y0[1], z, s: sgn(y0[1]) };
+        Ok(self.follow((y0[0], y0[1]), z, span))
+    }
+
+    /// The solution from q [m], v [m/s] and the deflections z [m], of a plant and a span that are checked.
+    fn follow(&self, (q, v): (f64, f64), z: Vec<f64>, span: (f64, f64)) -> ExactSolution {
+        let mut now = Now { t: span.0, q, v, z, s: sgn(v) };
         let (mut legs, mut events) = (Vec::new(), Vec::new());
         while now.t < span.1 {
             let mut leg = self.leg(&now);
@@ -108,7 +116,7 @@ impl SlipPlant {
             legs.push(leg);
             events.extend(kind.map(|kind| Event { t: now.t, kind }));
         }
-        Ok(ExactSolution { plant: self.clone(), legs, events })
+        ExactSolution { plant: self.clone(), legs, events }
     }
 
     fn check(&self, (start, end): (f64, f64)) -> Result<(), SimulationError> {
