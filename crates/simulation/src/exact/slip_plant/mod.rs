@@ -20,7 +20,7 @@ pub(super) use method::METHOD;
 
 use arc::{Arc, Point};
 use duhem::{Harmonic, Input, MaxwellSlip, Plant, sgn};
-use turn::{bisect, first_turn};
+use turn::{crossing, first_turn};
 
 /// The plant m q̈ + k_s q = w(t) − F with Maxwell-slip friction F; for the rig q is θ and m is I.
 #[derive(Debug, Clone, PartialEq)]
@@ -241,7 +241,7 @@ fn march(arc: &Arc, s: f64, way: f64, horizon: f64) -> (f64, bool, bool) {
         let last = turn.map_or(b, |tau| arc.at(tau));
         if s * last.p >= way {
             // Up to the turn the displacement is monotone: the way is reached once.
-            let tau = bisect(a.tau, last.tau, |tau| s * arc.at(tau).p < way);
+            let tau = crossing(a.tau, last.tau, |tau| way - s * arc.at(tau).p);
             return (tau, false, true);
         }
         if turn.is_some() || b.tau >= horizon {
