@@ -127,6 +127,11 @@ fn a_breach_of_each_rule_is_told() {
     );
     with(file("crates/duhem/src/models/stribeck.rs", "//! x\n"), "stribeck.rs: is not in MODELS");
     with(file("crates/integrate/src/solvers/ab2.rs", "//! x\n"), "ab2.rs: is not in SOLVERS");
+    with(file("crates/simulation/src/exact/coulomb.rs", "//! x\n"), "coulomb.rs: is not in EXACT");
+    with(
+        file("crates/simulation/src/adaptive/euler.rs", "//! x\n"),
+        "euler.rs: is not in ADAPTIVE",
+    );
     with(file("crates/duhem/src/lib.rs", "/// F = 1   (19)\n"), "equation (19) stands at");
     let mark = ["// TO", "DO\n"].concat();
     with(|root| add(&root.join("crates/duhem/src/lib.rs"), &mark), "an unfinished mark");

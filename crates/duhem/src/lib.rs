@@ -24,6 +24,7 @@
 //! [`closed_form::Reference`], what it answers exactly.
 
 pub mod closed_form;
+pub mod elementary;
 pub mod form;
 pub mod input;
 pub mod measures;

@@ -92,3 +92,36 @@ fn a_monotone_displacement_is_the_same_both_ways() {
         }
     }
 }
+
+#[test]
+fn the_force_on_a_monotone_piece_is_that_of_the_second_way() {
+    for gamma in GAMMAS {
+        let dahl = model(gamma);
+        for (way, s) in WAYS.into_iter().flat_map(|way| [(way, 1.0), (way, -1.0)]) {
+            for share in [-0.8, 0.0, 0.5, 0.999] {
+                let (f0, start) = (share * dahl.f_c, 0.7);
+                let mut force: Vec<f64> =
+                    [0.0, 0.2, 1.0].map(|p| start + s * p * 0.5 * way).to_vec();
+                let u = force.clone();
+                dahl::Piece::new(&dahl, f0, start, s).forces(&mut force);
+                for (u, force) in u.iter().zip(&force) {
+                    let second = second_way::advance(&dahl, f0, u - start);
+                    let what = format!("force from {f0} N to u = {u} m at γ = {gamma}");
+                    agree(&what, *force, second, (0.0, 3e-13 * dahl.f_c));
+                    assert!(force.abs() <= dahl.f_c, "{what}: {force} N");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_small_change_of_the_force_keeps_its_digits() {
+    // σΔu to first order in Δu, the next term being γΔuσ/2F_C of it.
+    for gamma in GAMMAS {
+        let (dahl, way) = (model(gamma), 1e-9);
+        let change = dahl::Piece::new(&dahl, 0.0, 0.0, 1.0).force(way);
+        let next = 0.5 * gamma * way * dahl.sigma / dahl.f_c;
+        agree(&format!("γ = {gamma}"), change, dahl.sigma * way * (1.0 - next), (1e-15, 0.0));
+    }
+}

@@ -151,3 +151,34 @@ fn hostile_numbers_are_refused_with_their_key() {
     let refused = Input::sampled(vec![0.0, 1.0, 1.0], vec![0.0; 3]).unwrap_err();
     assert!(matches!(refused, InputError::Order { index: 2, .. }), "{refused}");
 }
+
+#[test]
+fn many_displacements_at_once_are_those_one_by_one() {
+    let [sine, triangle, cosine] = waves();
+    let samples = (vec![0.0, 7.0, 9.0, 30.0], vec![0.0, 1.5, -0.5, 0.0]);
+    let sampled = Input::sampled(samples.0.clone(), samples.1.clone()).unwrap();
+    let polyline = Input::polyline(samples.0, samples.1).unwrap();
+    let parts = [&sine, &triangle, &sampled].map(|part| (part.clone(), 20.0 * PI));
+    let late = Input::sequence(parts.to_vec()).unwrap();
+    for input in [sine, triangle, cosine, sampled, polyline, late] {
+        let times: Vec<f64> = (0..2000).map(|i| -20.0 + 0.137 * f64::from(i)).collect();
+        let mut u = times.clone();
+        input.displace(&mut u);
+        let off = times.iter().zip(&u).map(|(t, u)| (input.u(*t) - u).abs()).fold(0.0, f64::max);
+        assert!(off < 2e-15, "{input:?} is off by {off:e} m");
+        // What the others are asked does not matter.
+        let mut alone = [times[777]];
+        input.displace(&mut alone);
+        assert_eq!(alone[0], u[777]);
+    }
+}
+
+#[test]
+fn only_straight_pieces_are_of_constant_speed() {
+    let [sine, triangle, cosine] = waves();
+    let stairs = Input::staircase(vec![0.0, 1.0], 1.0, 2.0).unwrap();
+    assert!(triangle.piecewise_linear() && stairs.piecewise_linear());
+    assert!(!sine.piecewise_linear() && !cosine.piecewise_linear());
+    let both = |last| Input::sequence(vec![(triangle.clone(), 20.0 * PI), (last, 1.0)]).unwrap();
+    assert!(both(triangle.clone()).piecewise_linear() && !both(sine.clone()).piecewise_linear());
+}

@@ -167,3 +167,20 @@ proptest! {
         prop_assert!(sum >= 0.0, "{} J", 2.0 * sum * beta / f64::from(n));
     }
 }
+
+#[test]
+fn a_leg_of_constant_speed_is_the_update_at_each_time() {
+    let model = model();
+    for u_dot in [-0.3, -1e-4, 0.0, 2e-6, 1e-3] {
+        for x in [-2e-5, 0.0, 1e-5] {
+            let mut found = [3.0, 3.0 + 1e-9, 3.01, 4.0, 300.0];
+            let times = found;
+            lugre::Leg::new(&model, x, 3.0, u_dot).deflections(&mut found);
+            for (t, found) in times.iter().zip(found) {
+                let expected = lugre::advance(&model, x, u_dot * (t - 3.0), u_dot);
+                let off = (found - expected).abs();
+                assert!(off <= 1e-20, "{found} m, expected {expected} m at {t} s, {u_dot} m/s");
+            }
+        }
+    }
+}

@@ -4,7 +4,9 @@ use duhem::{
     Dahl, FrictionModel, Input, MaxwellSlip,
     closed_form::{
         Reference, dahl,
-        maxwell_slip::{Loop, Trajectory, dissipation_as_printed, saturation_force, stop, work},
+        maxwell_slip::{
+            Loop, Play, Trajectory, dissipation_as_printed, saturation_force, stop, work,
+        },
     },
     measures::{self, Memory, Orientation},
 };
@@ -180,5 +182,34 @@ proptest! {
         let error = (cycle - settled.area()).abs();
         prop_assert!(error < 8.0 * f64::EPSILON * most, "{} J and {} J", cycle, settled.area());
         prop_assert!(settled.area() >= 0.0);
+    }
+}
+
+proptest! {
+    /// The play operator and the stop operator are one, also where an element starts beyond its deadband.
+    #[test]
+    fn the_positions_are_where_the_deflections_put_them(
+        x0 in prop::collection::vec(-0.05..0.05, 10),
+        turns in prop::collection::vec(-0.03..0.03, 2..8),
+    ) {
+        let model = ten();
+        let mut play = Play::new(&model, &x0);
+        let mut z: Vec<f64> = x0.iter().map(|x| turns[0] - x).collect();
+        for way in turns.windows(2) {
+            play.turn(way[0], way[1] >= way[0]);
+            let u = [0.0, 0.3, 0.9, 1.0].map(|part| way[0] + part * (way[1] - way[0]));
+            let mut x = [f64::NAN; 40];
+            play.positions(&u, &mut x);
+            play.stop_at(way[1]);
+            for (u, x) in u.iter().zip(x.chunks_exact(10)) {
+                for (i, x) in x.iter().enumerate() {
+                    let expected = u - stop(z[i], u - way[0], model.delta[i]);
+                    prop_assert!((x - expected).abs() < 1e-16 * 64.0, "{x} m, expected {expected} m");
+                }
+            }
+            for (z, delta) in z.iter_mut().zip(&model.delta) {
+                *z = stop(*z, way[1] - way[0], *delta);
+            }
+        }
     }
 }

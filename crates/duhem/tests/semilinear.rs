@@ -40,12 +40,33 @@ fn settles_on_its_loop(model: &Semilinear, (u_min, u_max): (f64, f64)) {
     assert!((settled.y(u_max - half, false) - model.y(&middle, u_max - half)).abs() < 1e-11);
 }
 
+/// Along a way of several cells and back, at points that lie in no pattern.
+fn follows_equation_6(model: &Semilinear) {
+    let mut x = vec![0.4, -0.3];
+    for (from, to) in [(-0.7, 1.1), (1.1, -0.7)] {
+        assert!(model.cells((from, to)) > 3.0, "{} cells", model.cells((from, to)));
+        let (start, way) = (x.clone(), to - from);
+        let u: Vec<f64> = [0.0, 0.123, 0.5, 0.877, 1.0].map(|part| from + part * way).to_vec();
+        let mut states = vec![f64::NAN; 2 * u.len()];
+        model.follow(&mut x, (from, to), &u, &mut states);
+        for (u, found) in u.iter().zip(states.chunks_exact(2)) {
+            let expected = rk4(model, start.clone(), from, u - from);
+            let off = (found[0] - expected[0]).abs().max((found[1] - expected[1]).abs());
+            assert!(off < 1e-12, "off by {off:e} at u = {u} m");
+        }
+        let end = &states[2 * u.len() - 2..];
+        let off = (x[0] - end[0]).abs().max((x[1] - end[1]).abs());
+        assert!(off < 1e-14, "off by {off:e} at the end");
+    }
+}
+
 #[test]
 fn two_coupled_states_settle_on_the_loop_of_theorem_1() {
     let plus = Branch { a: &[-1.0, 0.3, -0.2, -2.0], b: &[0.5, -0.1], e: &[1.0, 0.2] };
     let minus = Branch { a: &[1.5, 0.1, 0.4, 0.8], b: &[0.2, 0.3], e: &[0.7, -1.0] };
     let model = Semilinear::new(plus, minus, &[1.0, -0.5], 0.25).unwrap();
     settles_on_its_loop(&model, (-0.7, 1.1));
+    follows_equation_6(&model);
 }
 
 #[test]
@@ -54,6 +75,7 @@ fn a_singular_a_has_a_loop_though_the_print_divides_by_it() {
     let minus = Branch { a: &[1.0, 0.0, 0.0, 0.9], b: &[0.0, 0.3], e: &[0.7, -1.0] };
     let model = Semilinear::new(plus, minus, &[1.0, 1.0], 0.0).unwrap();
     settles_on_its_loop(&model, (-0.7, 1.1));
+    follows_equation_6(&model);
 }
 
 #[test]

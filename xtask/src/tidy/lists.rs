@@ -12,7 +12,7 @@ struct Family {
     helpers: &'static [&'static str],
 }
 
-const FAMILIES: [Family; 4] = [
+const FAMILIES: [Family; 6] = [
     Family { folder: "crates/duhem/src/models", file: "mod.rs", list: "MODELS", helpers: &[] },
     Family {
         folder: "crates/duhem/src/closed_form",
@@ -25,6 +25,19 @@ const FAMILIES: [Family; 4] = [
         folder: "crates/integrate/src/solvers",
         file: "mod.rs",
         list: "SOLVERS",
+        helpers: &[],
+    },
+    Family {
+        folder: "crates/simulation/src/exact",
+        file: "mod.rs",
+        list: "EXACT",
+        // How a motion is followed along the grid.
+        helpers: &["imposed"],
+    },
+    Family {
+        folder: "crates/simulation/src/adaptive",
+        file: "mod.rs",
+        list: "ADAPTIVE",
         helpers: &[],
     },
     Family { folder: "crates/report/src/figures", file: "mod.rs", list: "FIGURES", helpers: &[] },

@@ -36,6 +36,64 @@ pub fn saturation_force(model: &MaxwellSlip) -> f64 {
     force(model, &model.delta)
 }
 
+/// The positions [m] over one monotone piece after another, at many displacements at once: the play
+/// operator, which is [`stop`] seen from x. An element moves where it is pushed, x = u ∓ Δ, and else stays.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Play {
+    delta: Vec<f64>,
+    /// Whether u rises.
+    rising: bool,
+    /// Positions at the start of the piece [m].
+    x: Vec<f64>,
+    /// The deflection at which each slips [m]: Δ, or what it is beyond it.
+    limit: Vec<f64>,
+}
+
+impl Play {
+    /// The elements in the positions `x0` [m], before the first piece.
+    pub fn new(model: &MaxwellSlip, x0: &[f64]) -> Self {
+        let delta = model.delta.clone();
+        Self { limit: delta.clone(), delta, rising: true, x: x0.to_vec() }
+    }
+
+    /// Begins a piece at the displacement `u` [m], where the positions are those at its start.
+    pub fn turn(&mut self, u: f64, rising: bool) {
+        self.rising = rising;
+        let elements = self.x.iter().zip(&self.delta);
+        for (limit, (x, delta)) in self.limit.iter_mut().zip(elements) {
+            *limit = delta.max(if rising { u - x } else { x - u });
+        }
+    }
+
+    /// Ends the piece at the displacement `u` [m].
+    pub fn stop_at(&mut self, u: f64) {
+        for (x, limit) in self.x.iter_mut().zip(&self.limit) {
+            *x = if self.rising { pushed_up(*x, u - limit) } else { pushed_down(*x, u + limit) };
+        }
+    }
+
+    /// Writes the positions at each of the displacements `u` [m] of the piece, row by row.
+    pub fn positions(&self, u: &[f64], x: &mut [f64]) {
+        let n = self.x.len();
+        for (row, u) in x.chunks_exact_mut(n).zip(u) {
+            let elements = row.iter_mut().zip(self.x.iter().zip(&self.limit));
+            if self.rising {
+                elements.for_each(|(x, (x0, limit))| *x = pushed_up(*x0, u - limit));
+            } else {
+                elements.for_each(|(x, (x0, limit))| *x = pushed_down(*x0, u + limit));
+            }
+        }
+    }
+}
+
+fn pushed_up(x: f64, by: f64) -> f64 {
+    if x > by { x } else { by }
+}
+
+fn pushed_down(x: f64, by: f64) -> f64 {
+    if x < by { x } else { by }
+}
+
 /// The exact deflections of the model under an input.
 #[derive(Debug, Clone)]
 pub struct Trajectory {

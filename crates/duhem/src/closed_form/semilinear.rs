@@ -2,6 +2,7 @@
 
 use crate::{
     Dahl,
+    elementary::polynomial,
     form::{negative_part, positive_part},
 };
 use nalgebra::{DMatrix, DVector};
@@ -136,6 +137,74 @@ impl Semilinear {
             let size = value.re.hypot(value.im);
             if size.is_nan() { size } else { rho.max(size) }
         })
+    }
+}
+
+/// Within a cell ‖A Δu‖ ≤ ½, so that its power series is right to the last digit after so many terms.
+const TERMS: usize = 16;
+
+impl Semilinear {
+    /// How many states.
+    pub fn states(&self) -> usize {
+        self.c.len()
+    }
+
+    /// How many cells the way from one displacement to the other [m] takes, at least one.
+    pub fn cells(&self, (from, to): (f64, f64)) -> f64 {
+        let rows = self.branch(from, to).a.row_iter();
+        let norm = rows.map(|row| row.iter().map(|a| a.abs()).sum()).fold(0.0, f64::max);
+        (2.0 * norm * (to - from).abs()).ceil().max(1.0)
+    }
+
+    /// Takes the state `x` along the monotone way from one displacement to the other [m], and writes the
+    /// states at the displacements `u` [m] on the way into `states`, row by row.
+    ///
+    /// It is e^(A(u−u₀))x − Z(u, u₀) of equation 10 in powers of u − u₀, cell after cell, which needs
+    /// neither A⁻¹ nor an exponential for every u.
+    pub fn follow(&self, x: &mut [f64], way: (f64, f64), u: &[f64], states: &mut [f64]) {
+        let (branch, n, cells) = (self.branch(way.0, way.1), x.len(), self.cells(way));
+        let h = (way.1 - way.0) / cells;
+        let (mut series, mut cell, mut first) = (vec![[0.0; TERMS + 1]; n], 0.0, 0);
+        while cell < cells {
+            let (start, end) = (way.0 + cell * h, way.0 + (cell + 1.0) * h);
+            branch.series(x, start, &mut series);
+            cell += 1.0;
+            let inside = |u: &f64| cell == cells || (u - end) * h < 0.0;
+            let later = first + u[first..].partition_point(inside);
+            let rows = &mut states[n * first..n * later];
+            for (i, series) in series.iter().enumerate() {
+                for (x, u) in rows.iter_mut().skip(i).step_by(n).zip(&u[first..later]) {
+                    *x = polynomial(series, u - start);
+                }
+                x[i] = polynomial(series, h);
+            }
+            first = later;
+        }
+    }
+
+    fn branch(&self, from: f64, to: f64) -> &Affine {
+        if to >= from { &self.plus } else { &self.minus }
+    }
+}
+
+impl Affine {
+    /// Writes the powers of u − `u0` that the state is from `x` at `u0`: each term A times the one before
+    /// over its order, the first two also with Bu + E.
+    fn series(&self, x: &[f64], u0: f64, series: &mut [[f64; TERMS + 1]]) {
+        for (series, x) in series.iter_mut().zip(x) {
+            series[0] = *x;
+        }
+        for k in 0..TERMS {
+            for i in 0..x.len() {
+                let forced = match k {
+                    0 => self.b[i] * u0 + self.e[i],
+                    1 => self.b[i],
+                    _ => 0.0,
+                };
+                let linear = series.iter().enumerate().map(|(j, x)| self.a[(i, j)] * x[k]);
+                series[i][k + 1] = (linear.sum::<f64>() + forced) / (k + 1) as f64;
+            }
+        }
     }
 }
 

@@ -10,6 +10,7 @@ mod wave;
 pub use error::InputError;
 pub use harmonic::Harmonic;
 
+use crate::elementary::in_place;
 use polyline::Polyline;
 use repeated::Repeated;
 use sequence::Sequence;
@@ -76,6 +77,26 @@ impl Input {
             Shape::Polyline(line) => line.u(t),
             Shape::Repeated(line) => line.u(t),
             Shape::Sequence(sequence) => sequence.u(t),
+        }
+    }
+
+    /// Puts the displacement [m] in the place of each of the `times` [s], which rise: [`Self::u`] of many
+    /// times at once, the same but for the last digits.
+    pub fn displace(&self, times: &mut [f64]) {
+        match &self.0 {
+            Shape::Wave(wave) => wave.displace(times),
+            Shape::Polyline(line) => in_place(times, |t| line.u(t)),
+            Shape::Repeated(line) => in_place(times, |t| line.u(t)),
+            Shape::Sequence(sequence) => sequence.displace(times),
+        }
+    }
+
+    /// Whether the velocity is constant between any two corners.
+    pub fn piecewise_linear(&self) -> bool {
+        match &self.0 {
+            Shape::Wave(wave) => wave.piecewise_linear(),
+            Shape::Polyline(_) | Shape::Repeated(_) => true,
+            Shape::Sequence(sequence) => sequence.piecewise_linear(),
         }
     }
 

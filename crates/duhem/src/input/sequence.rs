@@ -1,6 +1,7 @@
 //! Inputs one after the other.
 
 use super::{Input, InputError, error::positive};
+use crate::elementary::in_place;
 
 /// How far u may jump between two parts, relative to their larger range: rounding, no more.
 const CONTINUOUS: f64 = 1e-12;
@@ -40,6 +41,22 @@ impl Sequence {
     pub(super) fn u(&self, t: f64) -> f64 {
         let part = self.part(t);
         part.input.u(t - part.start)
+    }
+
+    /// u in the place of each of the rising times.
+    pub(super) fn displace(&self, times: &mut [f64]) {
+        let mut rest = times;
+        for (i, part) in self.parts.iter().enumerate() {
+            let until = self.parts.get(i + 1).map_or(f64::INFINITY, |next| next.start);
+            let (here, later) = rest.split_at_mut(rest.partition_point(|t| *t < until));
+            in_place(here, |t| t - part.start);
+            part.input.displace(here);
+            rest = later;
+        }
+    }
+
+    pub(super) fn piecewise_linear(&self) -> bool {
+        self.parts.iter().all(|part| part.input.piecewise_linear())
     }
 
     pub(super) fn u_dot(&self, t: f64) -> f64 {

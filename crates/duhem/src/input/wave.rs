@@ -4,6 +4,7 @@ use super::{
     Harmonic,
     error::{InputError, positive},
 };
+use crate::elementary::{in_place, sines};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,6 +57,28 @@ impl Wave {
                 self.amplitude * if s < 0.5 { 4.0 * s - 1.0 } else { 3.0 - 4.0 * s }
             }
         }
+    }
+
+    /// u in the place of each time.
+    pub(super) fn displace(&self, times: &mut [f64]) {
+        let (a, omega) = (self.amplitude, self.omega);
+        match self.kind {
+            Kind::Sine => {
+                in_place(times, |t| omega * t);
+                sines(times);
+                in_place(times, |sine| a * sine);
+            }
+            Kind::CosineOffset => {
+                in_place(times, |t| 0.5 * omega * t);
+                sines(times);
+                in_place(times, |half| -2.0 * a * half * half);
+            }
+            Kind::Triangle => in_place(times, |t| self.u(t)),
+        }
+    }
+
+    pub(super) fn piecewise_linear(&self) -> bool {
+        self.kind == Kind::Triangle
     }
 
     pub(super) fn u_dot(&self, t: f64) -> f64 {

@@ -6,6 +6,7 @@
 //! `ln_1p`, so that it passes through γ = 1 (and the work through γ = 2) without losing a digit.
 
 mod corollary;
+mod piece;
 pub mod quasi_static;
 mod settled;
 pub mod settling;
@@ -13,6 +14,7 @@ mod trajectory;
 mod work;
 
 pub use corollary::{alpha_plus, contraction, falling, falling_as_printed, rising};
+pub use piece::Piece;
 pub use settled::Loop;
 pub use trajectory::Trajectory;
 pub use work::{work, work_over};

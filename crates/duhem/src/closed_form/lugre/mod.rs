@@ -3,12 +3,14 @@
 //! Where the speed is constant (triangle waves, staircases, samples) the solution is an exponential;
 //! elsewhere it is variation of constants, by quadrature to the last digits.
 
+mod leg;
 mod panel;
 mod passivity;
 pub mod second_way;
 mod steady;
 mod trajectory;
 
+pub use leg::Leg;
 pub use passivity::{dissipation, dissipative_rate, dissipative_speed, returning_speed};
 pub use steady::{SteadyExtrema, steady_extrema};
 pub use trajectory::{Trajectory, settled, settled_start};

@@ -8,6 +8,7 @@
 
 mod arc;
 mod energy;
+mod method;
 mod sample;
 mod turn;
 
@@ -15,9 +16,11 @@ use crate::{
     SimulationError,
     error::{check_span, deflections},
 };
+pub(super) use method::METHOD;
+
 use arc::{Arc, Point};
 use duhem::{Harmonic, Input, MaxwellSlip, Plant, sgn};
-use turn::{bisect, first_turn};
+use turn::{crossing, first_turn};
 
 /// The plant m q̈ + k_s q = w(t) − F with Maxwell-slip friction F; for the rig q is θ and m is I.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,7 +99,12 @@ impl SlipPlant {
     pub fn solve(&self, y0: &[f64], span: (f64, f64)) -> Result<ExactSolution, SimulationError> {
         self.check(span)?;
         let z = deflections(&self.model, y0)?;
-        let mut now = Now { t: span.0, q: y0[0], v: y0[1], z, s: sgn(y0[1]) };
+        Ok(self.follow((y0[0], y0[1]), z, span))
+    }
+
+    /// The solution from q [m], v [m/s] and the deflections z [m], of a plant and a span that are checked.
+    fn follow(&self, (q, v): (f64, f64), z: Vec<f64>, span: (f64, f64)) -> ExactSolution {
+        let mut now = Now { t: span.0, q, v, z, s: sgn(v) };
         let (mut legs, mut events) = (Vec::new(), Vec::new());
         while now.t < span.1 {
             let mut leg = self.leg(&now);
@@ -108,7 +116,7 @@ impl SlipPlant {
             legs.push(leg);
             events.extend(kind.map(|kind| Event { t: now.t, kind }));
         }
-        Ok(ExactSolution { plant: self.clone(), legs, events })
+        ExactSolution { plant: self.clone(), legs, events }
     }
 
     fn check(&self, (start, end): (f64, f64)) -> Result<(), SimulationError> {
@@ -233,7 +241,7 @@ fn march(arc: &Arc, s: f64, way: f64, horizon: f64) -> (f64, bool, bool) {
         let last = turn.map_or(b, |tau| arc.at(tau));
         if s * last.p >= way {
             // Up to the turn the displacement is monotone: the way is reached once.
-            let tau = bisect(a.tau, last.tau, |tau| s * arc.at(tau).p < way);
+            let tau = crossing(a.tau, last.tau, |tau| way - s * arc.at(tau).p);
             return (tau, false, true);
         }
         if turn.is_some() || b.tau >= horizon {
