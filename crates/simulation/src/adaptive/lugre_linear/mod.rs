@@ -74,7 +74,7 @@ impl Solves for LugreLinear {
         let mut run =
             Run { of: self, atol, most: limits.evaluations, t, x, grid, states, work, first: None };
         let end = if rtol > 0.0 && rtol.is_finite() {
-            run.to_end()
+            run.march()
         } else {
             Err(Failure::Stopped(format!("a tolerance must be positive, found {rtol}")))
         };
@@ -105,7 +105,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn to_end(&mut self) -> Result<(), Failure> {
+    fn march(&mut self) -> Result<(), Failure> {
         let (start, end) = self.of.span;
         let corners = self.of.input.corners(start, end);
         let here = self.count(start);

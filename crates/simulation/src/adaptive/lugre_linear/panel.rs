@@ -1,6 +1,9 @@
 //! One panel of time: collocation of a linear equation, its series, and points read off it.
 
-use super::rule::{N, Rule};
+use super::{
+    super::fma,
+    rule::{N, Rule},
+};
 
 /// Points read off a series at once, side by side.
 pub(super) const LANES: usize = 16;
@@ -29,29 +32,29 @@ pub(super) fn series(rule: &Rule, driven: &Driven, y0: f64) -> ([f64; N + 1], f6
     }
     let mut z = r.map(|r| y0 - r);
     for k in 0..N {
-        let (upper, lower) = m.split_at_mut(k + 1);
-        let row = &upper[k];
+        // A copy, so that the compiler sees that the rows do not overlap.
+        let (row, z_k) = (m[k], z[k]);
         let inverse = 1.0 / row[k];
-        for (below, i) in lower.iter_mut().zip(k + 1..) {
+        for (below, z) in m[k + 1..].iter_mut().zip(&mut z[k + 1..]) {
             let part = below[k] * inverse;
-            for (entry, above) in below.iter_mut().zip(row) {
-                *entry -= part * above;
+            for (entry, above) in below.iter_mut().zip(&row) {
+                *entry = fma(-part, *above, *entry);
             }
-            z[i] -= part * z[k];
+            *z -= part * z_k;
         }
     }
     for k in (0..N).rev() {
         z[k] /= m[k][k];
         let known = z[k];
-        for i in 0..k {
-            z[i] -= m[i][k] * known;
+        for (z, row) in z[..k].iter_mut().zip(&m) {
+            *z -= row[k] * known;
         }
     }
     let mut c = rule.series[0].map(|entry| entry * y0);
     for j in 0..N {
         let y = r[j] + z[j];
         for (c, entry) in c.iter_mut().zip(&rule.series[j + 1]) {
-            *c += y * entry;
+            *c = fma(y, *entry, *c);
         }
     }
     (c, r[N - 1] + z[N - 1])
@@ -62,14 +65,14 @@ pub(super) fn at(c: &[f64; N + 1], x: &[f64; LANES]) -> [f64; LANES] {
     let (mut one, mut two) = ([0.0; LANES], [0.0; LANES]);
     for c in c[1..].iter().rev() {
         for lane in 0..LANES {
-            let next = 2.0 * x[lane] * one[lane] + (c - two[lane]);
+            let next = fma(2.0 * x[lane], one[lane], c - two[lane]);
             two[lane] = one[lane];
             one[lane] = next;
         }
     }
     let mut y = [0.0; LANES];
     for lane in 0..LANES {
-        y[lane] = x[lane] * one[lane] + (c[0] - two[lane]);
+        y[lane] = fma(x[lane], one[lane], c[0] - two[lane]);
     }
     y
 }
