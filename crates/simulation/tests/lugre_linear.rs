@@ -88,6 +88,61 @@ fn the_error_stays_below_the_tolerance_under_every_input() {
     }
 }
 
+/// Numbers in [0, 1) that are the same everywhere.
+fn draw(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 33) as f64 / f64::from(1_u32 << 31)
+}
+
+#[test]
+fn models_and_motions_drawn_at_random_are_those_of_the_quadrature() {
+    let mut seed = 11;
+    for case in 0..60 {
+        let mut between = |low: f64, high: f64| low * (high / low).powf(draw(&mut seed));
+        let keys = [
+            ("f_c", between(0.1, 3.0)),
+            ("f_s", between(0.1, 3.0)),
+            ("v_s", between(1e-4, 1e-1)),
+            ("sigma_0", between(1e2, 1e6)),
+            ("sigma_1", 0.0),
+            ("sigma_2", 0.0),
+        ];
+        // From a hundredth of r to a thousand of them, from far below v_S to far above.
+        let r = keys[0].1.min(keys[1].1) / keys[3].1;
+        let amplitude = r * between(1e-2, 1e3);
+        let omega = keys[2].1 * between(1e-2, 1e3) / amplitude;
+        let input = match case % 3 {
+            0 => Input::sine(amplitude, omega),
+            1 => Input::cosine_offset(amplitude, omega),
+            _ => Input::triangle(amplitude, omega),
+        };
+        let (start, x0) = (between(0.1, 10.0) / omega, r * (2.0 * between(0.1, 1.0) - 1.0));
+        let task = task(&keys, input.expect("an input"), x0, (start, start + 15.0 / omega));
+        let grid = times(task.span, 200);
+        let exact = exact(&task, &grid);
+        for rtol in [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
+            let error = error(&task, rtol, &grid, &exact);
+            assert!(error <= rtol, "{error:e} at {rtol:e}: {task:?}");
+        }
+    }
+}
+
+#[test]
+fn however_fast_the_motion_the_panels_stay_few() {
+    // 1 m at up to 1000 m/s over bristles of 1e-5 m: |u̇|/r is 1e8/s.
+    let task = task(&FIGURE_4, Input::sine(1.0, 1e3).expect("a sine"), 0.0, (0.0, 0.02));
+    let (grid, mut x) = (times(task.span, 100), vec![0.0; 101]);
+    let delivered = linear(&task).deliver(1e-8, &Limits::default(), &grid, &mut x);
+    assert_eq!(delivered.outcome, Outcome::Solved);
+    let panels = delivered.work.accepted;
+    assert!(panels < 600, "{panels} panels for seven arcs");
+    // Far from the turns it slides at r = F_C/σ₀ but for what is left to approach.
+    for (t, x) in grid.iter().zip(&x).filter(|(t, _)| (1e3 * *t).cos().abs() > 0.3) {
+        let slides = 1e-5 * (1e3 * t).cos().signum();
+        assert!(*t == 0.0 || (x - slides).abs() < 1e-13, "{x} m at {t} s");
+    }
+}
+
 #[test]
 fn what_it_does_not_solve_is_refused_in_words() {
     let input = || Input::sine(1e-4, 1.0).unwrap();

@@ -31,6 +31,9 @@ const SEEN: f64 = 1.0;
 /// A speed [v_S] at which e^(−s²) is less than 1e-15.
 const BEYOND: f64 = 6.0;
 
+/// The error of a panel on which it is not seen, in units of what is allowed.
+const UNSEEN: f64 = 1e4;
+
 #[derive(Debug)]
 struct LugreLinear {
     lugre: LuGre,
@@ -86,6 +89,18 @@ impl Solves for LugreLinear {
     }
 }
 
+/// A panel that was tried.
+#[derive(Debug)]
+struct Panel {
+    /// Chebyshev coefficients of y [m].
+    series: [f64; N + 1],
+    /// y [m] and the speed [m/s] at its end.
+    end: f64,
+    speed: f64,
+    /// Its error in units of what is allowed.
+    error: f64,
+}
+
 #[derive(Debug)]
 struct Run<'a> {
     of: &'a LugreLinear,
@@ -127,18 +142,18 @@ impl Run<'_> {
         }
         let s = sgn(middle);
         let mut h = self.first.unwrap_or(to - from).min(to - from);
-        let mut begun = false;
+        let (mut begun, mut speed) = (false, (s * start).max(0.0));
         while self.t < to {
             let left = to - self.t;
             let rest = (left / h * (1.0 - 1e-6)).ceil().max(1.0);
             h = left / rest;
-            let (c, end, ratio) = self.panel(s, h, velocity)?;
+            let tried = self.attempt((s, speed), h, velocity)?;
             // The error goes with the power N + 1 of the length.
-            let next = h * (0.9 * ratio.powf(-1.0 / (N + 1) as f64)).clamp(0.1, 4.0);
-            if ratio <= 1.0 {
+            let next = h * (0.9 * tried.error.powf(-1.0 / (N + 1) as f64)).clamp(0.1, 4.0);
+            if tried.error <= 1.0 {
                 let until = if rest == 1.0 { to } else { self.t + h };
-                self.accept(&c, s, (h, until));
-                self.x = s * end;
+                self.accept(&tried.series, s, (h, until));
+                (self.x, speed) = (s * tried.end, tried.speed);
                 if !begun {
                     (self.first, begun) = (Some(next), true);
                 }
@@ -153,33 +168,36 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// The series of y on the panel of length `h` that starts here, its end, and its error in units of
-    /// what is allowed.
-    fn panel(
+    /// The panel of length `h` that starts here in the direction `s`, with the speed there.
+    fn attempt(
         &mut self,
-        s: f64,
+        (s, start): (f64, f64),
         h: f64,
         velocity: impl Fn(f64) -> f64,
-    ) -> Result<([f64; N + 1], f64, f64), Failure> {
+    ) -> Result<Panel, Failure> {
         self.spend(N as u64)?;
         let (of, half) = (self.of, 0.5 * h);
         let speed = of.rule.nodes.map(|node| (s * velocity(self.t + half * (1.0 + node))).max(0.0));
         let r = speed.map(|speed| of.lugre.r(speed));
         let mut rate = [0.0; N];
-        for i in 0..N {
-            rate[i] = half * speed[i] / r[i];
+        for (rate, (speed, r)) in rate.iter_mut().zip(speed.iter().zip(&r)) {
+            *rate = half * speed / r;
         }
-        let (c, end) = panel::series(&of.rule, &Driven { r, rate }, s * self.x);
-        if !(end.is_finite() && c[N].is_finite()) {
+        let (series, end) = panel::series(&of.rule, &Driven { r, rate }, s * self.x);
+        if !(end.is_finite() && series[N].is_finite()) {
             return Err(Failure::NotFinite);
         }
-        let last = c[N - 2..].iter().fold(0.0, |last: f64, c| last.max(c.abs()));
-        let unseen = speed.windows(2).any(|pair| {
-            let (slow, fast) = (pair[0].min(pair[1]), pair[0].max(pair[1]));
-            slow < BEYOND * of.lugre.v_s && fast - slow > SEEN * of.lugre.v_s
-        });
-        let ratio = last / self.atol;
-        Ok((c, end, if unseen { ratio.max(1e4) } else { ratio }))
+        let last = series[N - 2..].iter().fold(0.0, |last: f64, c| last.max(c.abs()));
+        let mut error = last / self.atol;
+        let mut before = start;
+        for speed in speed {
+            let slow = speed.min(before) < BEYOND * of.lugre.v_s;
+            if slow && (speed - before).abs() > SEEN * of.lugre.v_s {
+                error = error.max(UNSEEN);
+            }
+            before = speed;
+        }
+        Ok(Panel { series, end, speed: before, error })
     }
 
     /// Goes to the end of the panel and delivers what lies on it.

@@ -107,12 +107,13 @@ mod tests {
     #[test]
     fn a_power_is_integrated_and_expanded_exactly() {
         let rule = Rule::new();
-        for n in 0..N {
-            let power = |x: f64| x.powi(n as i32);
+        for n in 0..16 {
+            let power = |x: f64| x.powi(n);
             for (i, row) in rule.integral.iter().enumerate() {
                 let sum: f64 = row.iter().zip(rule.nodes).map(|(w, x)| w * power(x)).sum();
-                let degree = n as i32 + 1;
-                let exact = (rule.nodes[i].powi(degree) - (-1.0_f64).powi(degree)) / degree as f64;
+                let degree = n + 1;
+                let exact =
+                    (rule.nodes[i].powi(degree) - (-1.0_f64).powi(degree)) / f64::from(degree);
                 assert!((sum - exact).abs() < 1e-14, "x^{n} to node {i}: {:e}", sum - exact);
             }
         }
