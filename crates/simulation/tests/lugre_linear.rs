@@ -97,7 +97,7 @@ fn draw(seed: &mut u64) -> f64 {
 #[test]
 fn models_and_motions_drawn_at_random_are_those_of_the_quadrature() {
     let mut seed = 11;
-    for case in 0..60 {
+    for case in 0..120 {
         let mut between = |low: f64, high: f64| low * (high / low).powf(draw(&mut seed));
         let keys = [
             ("f_c", between(0.1, 3.0)),

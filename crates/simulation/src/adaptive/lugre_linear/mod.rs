@@ -22,11 +22,11 @@ pub const LUGRE_LINEAR: Own = Own {
 };
 
 /// The share of the tolerance that the last coefficients may be.
-const SAFETY: f64 = 0.25;
+const SAFETY: f64 = 0.2;
 
 /// The Stribeck curve is seen where neighbouring points of a panel differ by less than this [v_S], unless
 /// both are faster than [`BEYOND`].
-const SEEN: f64 = 1.0;
+const SEEN: f64 = 0.6;
 
 /// A speed [v_S] at which e^(−s²) is less than 1e-15.
 const BEYOND: f64 = 6.0;
@@ -187,8 +187,7 @@ impl Run<'_> {
         if !(end.is_finite() && series[N].is_finite()) {
             return Err(Failure::NotFinite);
         }
-        let last = series[N - 2..].iter().fold(0.0, |last: f64, c| last.max(c.abs()));
-        let mut error = last / self.atol;
+        let mut error = tail(&series) / self.atol;
         let mut before = start;
         for speed in speed {
             let slow = speed.min(before) < BEYOND * of.lugre.v_s;
@@ -253,4 +252,13 @@ impl Run<'_> {
         }
         Ok(())
     }
+}
+
+/// What the coefficients behind the last may add up to: six places on they are less by the same factor
+/// again.
+fn tail(series: &[f64; N + 1]) -> f64 {
+    let largest = |c: &[f64]| c.iter().fold(0.0, |largest: f64, c| largest.max(c.abs()));
+    let (before, last) = (largest(&series[N - 8..N - 5]), largest(&series[N - 2..]));
+    let factor = (last / before.max(f64::MIN_POSITIVE)).min(0.9);
+    last * (1.0 + 6.0 * factor / (1.0 - factor))
 }
