@@ -7,7 +7,7 @@ use duhem::{Dahl, Harmonic, Plant};
 pub(super) const TERMS: usize = 32;
 
 /// Points read off at once, side by side.
-pub(super) const LANES: usize = 4;
+pub(super) const LANES: usize = 8;
 
 /// Where the motion is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,16 +132,7 @@ impl Series {
 
     /// q, v and w at these places.
     pub(super) fn states(&self, tau: &[f64; LANES]) -> [[f64; LANES]; 3] {
-        let mut y = [[0.0; LANES]; 3];
-        for n in (0..=self.order).rev() {
-            let c = [self.q[n], self.v[n], self.w[n]];
-            for (y, c) in y.iter_mut().zip(c) {
-                for lane in 0..LANES {
-                    y[lane] = fma(y[lane], tau[lane], c);
-                }
-            }
-        }
-        y
+        [&self.q, &self.v, &self.w].map(|c| polynomial(&c[..=self.order], tau))
     }
 
     /// The state at τ, reached in the same direction.
@@ -155,6 +146,17 @@ impl Series {
         }
         State { t: self.from.t + tau * self.h, q: y[0], v: y[1], w: y[2], s: self.from.s }
     }
+}
+
+/// The polynomial of these coefficients at these places.
+pub(super) fn polynomial<const N: usize>(c: &[f64], tau: &[f64; N]) -> [f64; N] {
+    let mut sum = [0.0; N];
+    for c in c.iter().rev() {
+        for lane in 0..N {
+            sum[lane] = fma(sum[lane], tau[lane], *c);
+        }
+    }
+    sum
 }
 
 /// 1/n.

@@ -1,6 +1,9 @@
 //! Where a velocity given by a series first changes its sign.
 
-use super::{super::fma, series::Series};
+use super::{
+    super::fma,
+    series::{Series, polynomial},
+};
 
 /// A velocity that is only this many units of rounding beyond zero touches it and does not turn.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
@@ -116,7 +119,8 @@ fn root(series: &Series, a: Place, b: Place) -> f64 {
     let mut here = (b.tau, b.p);
     for _ in 0..200 {
         let before = here;
-        here = (next, series.from.s * polynomial(&series.v, series.order, next));
+        let [v] = polynomial(&series.v[..=series.order], &[next]);
+        here = (next, series.from.s * v);
         if here.1 >= 0.0 {
             low = next;
         } else {
@@ -136,11 +140,6 @@ fn root(series: &Series, a: Place, b: Place) -> f64 {
         }
     }
     high
-}
-
-/// The velocity at τ.
-fn polynomial(v: &[f64], order: usize, tau: f64) -> f64 {
-    v[..=order].iter().rev().fold(0.0, |sum, v| fma(sum, tau, *v))
 }
 
 fn place(series: &Series, tau: f64) -> Place {

@@ -34,10 +34,12 @@ pub(super) fn series(rule: &Rule, driven: &Driven, y0: f64) -> ([f64; N + 1], f6
     for k in 0..N {
         // A copy, so that the compiler sees that the rows do not overlap.
         let (row, z_k) = (m[k], z[k]);
+        // What lies left of the pivot is not asked for again, and left alone by whole registers.
+        let from = k / 8 * 8;
         let inverse = 1.0 / row[k];
         for (below, z) in m[k + 1..].iter_mut().zip(&mut z[k + 1..]) {
             let part = below[k] * inverse;
-            for (entry, above) in below.iter_mut().zip(&row) {
+            for (entry, above) in below[from..].iter_mut().zip(&row[from..]) {
                 *entry = fma(-part, *above, *entry);
             }
             *z -= part * z_k;
