@@ -90,28 +90,30 @@ impl Drive {
     }
 }
 
+/// Of the sine, by the square of the turn.
+const SIN: [f64; 7] = inverse_factorials(1);
+/// Of the cosine, after its 1.
+const COS: [f64; 7] = inverse_factorials(2);
+
 /// Sine and cosine of a turn of less than [`TURN`], to the last digit: the next terms are 4e-17 of it.
 #[inline(always)]
 fn sin_cos(x: f64) -> (f64, f64) {
     let square = x * x;
     let series = |terms: &[f64]| terms.iter().rev().fold(0.0, |sum, term| fma(sum, square, *term));
-    const SIN: [f64; 7] = inverse_factorials(1);
-    const COS: [f64; 7] = inverse_factorials(2);
     (x * series(&SIN), fma(square, series(&COS), 1.0))
 }
 
-/// ±1/n!, ∓1/(n + 2)!, …, the first with the sign that the series of sine and cosine give it.
+/// 1/n!, −1/(n + 2)!, … for n = 1, and −1/n!, 1/(n + 2)!, … for n = 2.
 const fn inverse_factorials(n: u32) -> [f64; 7] {
-    let (mut terms, mut term, mut i) = ([0.0; 7], 1.0, 2);
-    while i <= n {
-        term /= -(i as f64);
-        i += 1;
+    let (mut terms, mut term, mut next) = ([0.0; 7], 1.0, 2.0);
+    if n == 2 {
+        (term, next) = (-0.5, 3.0);
     }
     let mut k = 0;
-    while k < 7 {
+    while k < terms.len() {
         terms[k] = term;
-        let next = (n + 2 * k as u32) as f64;
-        term /= -(next + 1.0) * (next + 2.0);
+        term /= -next * (next + 1.0);
+        next += 2.0;
         k += 1;
     }
     terms
