@@ -26,7 +26,7 @@ pub use problem::{Control, Corners, Dynamics, Grid, InitialValueProblem, Limits}
 pub use radau::{Integration, Node, Settings, System, radau};
 pub use run::{Failure, Outcome, Run, Trajectory, Work};
 pub use segment::{Recorder, Segment};
-pub use solve::{solve, solving};
+pub use solve::{Sampling, deliver, solve, solving};
 pub use solvers::{Order, SETS, SOLVERS, Solver, set, solver};
 
 /// The solver libraries with the exact versions they are pinned to.
