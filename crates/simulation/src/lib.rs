@@ -9,6 +9,7 @@
 //! the solvers of a plant are judged.
 
 pub mod adaptive;
+pub mod anchors;
 pub mod displacement;
 mod driven;
 pub mod energy;

@@ -1,0 +1,128 @@
+//! The anchors timed: the one program here that has a clock, that of its thread's CPU time.
+//!
+//! `anchors [P1 …] [--quick] [--refs DIR]`, started by `cargo xtask bench anchors`, writes JSON, a line for
+//! each thing it has to tell: how it was built, the references, the rows.
+
+use cpu_time::ThreadTime;
+use integrate::Limits;
+use serde_json::{Value, json};
+use simulation::anchors::{
+    Anchor, Answer, Contest, PROBLEMS, RTOLS, Timing, anchors, answer, error, run, table,
+};
+use std::{error::Error, fs, io::Write, path::PathBuf, process::ExitCode};
+
+fn main() -> ExitCode {
+    // A solver that panics is a row of the table.
+    std::panic::set_hook(Box::new(|_| ()));
+    match all() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            let _ = writeln!(std::io::stderr(), "error: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// What was asked for.
+#[derive(Default)]
+struct Asked {
+    problems: Vec<String>,
+    quick: bool,
+    refs: Option<PathBuf>,
+}
+
+fn asked() -> Result<Asked, String> {
+    let mut asked = Asked::default();
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            // Cargo adds it.
+            "--bench" => {}
+            "--quick" => asked.quick = true,
+            "--refs" => asked.refs = arguments.next().map(PathBuf::from),
+            name if PROBLEMS.contains(&name) => asked.problems.push(name.to_owned()),
+            other => return Err(format!("{other} is neither a problem nor a flag")),
+        }
+    }
+    Ok(asked)
+}
+
+fn all() -> Result<(), Box<dyn Error>> {
+    let asked = asked()?;
+    tell(
+        &json!({ "built": { "target_features": features(), "optimised": !cfg!(debug_assertions) } }),
+    )?;
+    let start = ThreadTime::try_now()?;
+    let mut clock = || start.elapsed().as_secs_f64();
+    for anchor in anchors()? {
+        if !asked.problems.is_empty() && !asked.problems.iter().any(|p| p == anchor.problem) {
+            continue;
+        }
+        let reference = reference(&anchor, asked.refs.as_ref())?;
+        for row in run(&anchor, &reference.values, &contest(&anchor, asked.quick), &mut clock)? {
+            tell(&json!({ "row": row }))?;
+        }
+    }
+    Ok(())
+}
+
+/// The reference of an anchor: the table in `refs` if there is one, else our own; how far both are apart is
+/// told.
+fn reference(anchor: &Anchor, refs: Option<&PathBuf>) -> Result<Answer, Box<dyn Error>> {
+    let ours = answer(anchor)?;
+    let name = format!("{}_{}.txt", anchor.problem, anchor.parameter.unwrap_or(0.0));
+    let path = refs.map(|folder| folder.join(name)).filter(|path| path.is_file());
+    let read = match path {
+        None => None,
+        Some(path) => {
+            let text =
+                fs::read_to_string(&path).map_err(|why| format!("{}: {why}", path.display()))?;
+            Some(table(anchor, &text).map_err(|why| format!("{}: {why}", path.display()))?)
+        }
+    };
+    let apart = read.as_ref().map(|read| error(&ours.values, &read.values));
+    tell(&json!({ "reference": {
+        "problem": anchor.problem, "parameter": anchor.parameter, "way": ours.way, "error": ours.error,
+        "table": read.is_some(), "apart": apart,
+    }}))?;
+    Ok(read.unwrap_or(ours))
+}
+
+/// What is asked of all on this anchor. Under an imposed motion a run that needs more than a million
+/// evaluations for three periods has lost; an explicit method on a stiff plant needs several.
+fn contest(anchor: &Anchor, quick: bool) -> Contest {
+    let evaluations = match (anchor.task.plant.is_some(), quick) {
+        (false, false) => 1_000_000,
+        (false, true) => 200_000,
+        (true, false) => 5_000_000,
+        (true, true) => 500_000,
+    };
+    let timing = if quick {
+        Timing { least: 1, most: 7, share_s: 0.005, batch_s: 1e-4 }
+    } else {
+        Timing { least: 5, most: 31, share_s: 0.1, batch_s: 2e-4 }
+    };
+    let every = if quick { 3 } else { 1 };
+    let rtols = RTOLS.into_iter().step_by(every).collect();
+    Contest { rtols, limits: Limits { evaluations }, timing }
+}
+
+fn tell(what: &Value) -> std::io::Result<()> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{what}")?;
+    out.flush()
+}
+
+/// The features of the processor that the compiler was allowed to use, of those that matter here.
+fn features() -> Vec<&'static str> {
+    let known = [
+        ("sse4.2", cfg!(target_feature = "sse4.2")),
+        ("avx", cfg!(target_feature = "avx")),
+        ("avx2", cfg!(target_feature = "avx2")),
+        ("fma", cfg!(target_feature = "fma")),
+        ("avx512f", cfg!(target_feature = "avx512f")),
+        ("neon", cfg!(target_feature = "neon")),
+        ("sve", cfg!(target_feature = "sve")),
+    ];
+    known.into_iter().filter(|(_, there)| *there).map(|(name, _)| name).collect()
+}
