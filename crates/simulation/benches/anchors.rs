@@ -16,10 +16,28 @@ fn main() -> ExitCode {
     std::panic::set_hook(Box::new(|_| ()));
     match all() {
         Ok(()) => ExitCode::SUCCESS,
-        Err(why) => {
-            let _ = writeln!(std::io::stderr(), "error: {why}");
-            ExitCode::FAILURE
+        Err(Failed { code, words }) => {
+            let _ = writeln!(std::io::stderr(), "error: {words}");
+            ExitCode::from(code)
         }
+    }
+}
+
+/// What went wrong, and the code to end with.
+struct Failed {
+    code: u8,
+    words: String,
+}
+
+/// A table that cannot be read, or is another's.
+const INPUT: u8 = 4;
+
+/// Our own mistake.
+const BUG: u8 = 70;
+
+impl<E: Error> From<E> for Failed {
+    fn from(error: E) -> Self {
+        Failed { code: BUG, words: error.to_string() }
     }
 }
 
@@ -31,7 +49,7 @@ struct Asked {
     refs: Option<PathBuf>,
 }
 
-fn asked() -> Result<Asked, String> {
+fn asked() -> Result<Asked, Failed> {
     let mut asked = Asked::default();
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
@@ -41,13 +59,16 @@ fn asked() -> Result<Asked, String> {
             "--quick" => asked.quick = true,
             "--refs" => asked.refs = arguments.next().map(PathBuf::from),
             name if PROBLEMS.contains(&name) => asked.problems.push(name.to_owned()),
-            other => return Err(format!("{other} is neither a problem nor a flag")),
+            other => {
+                let words = format!("{other} is neither a problem nor a flag");
+                return Err(Failed { code: BUG, words });
+            }
         }
     }
     Ok(asked)
 }
 
-fn all() -> Result<(), Box<dyn Error>> {
+fn all() -> Result<(), Failed> {
     let asked = asked()?;
     tell(
         &json!({ "built": { "target_features": features(), "optimised": !cfg!(debug_assertions) } }),
@@ -68,16 +89,17 @@ fn all() -> Result<(), Box<dyn Error>> {
 
 /// The reference of an anchor: the table in `refs` if there is one, else our own; how far both are apart is
 /// told.
-fn reference(anchor: &Anchor, refs: Option<&PathBuf>) -> Result<Answer, Box<dyn Error>> {
+fn reference(anchor: &Anchor, refs: Option<&PathBuf>) -> Result<Answer, Failed> {
     let ours = answer(anchor)?;
     let name = format!("{}_{}.txt", anchor.problem, anchor.parameter.unwrap_or(0.0));
     let path = refs.map(|folder| folder.join(name)).filter(|path| path.is_file());
     let read = match path {
         None => None,
         Some(path) => {
-            let text =
-                fs::read_to_string(&path).map_err(|why| format!("{}: {why}", path.display()))?;
-            Some(table(anchor, &text).map_err(|why| format!("{}: {why}", path.display()))?)
+            let refuse =
+                |why: String| Failed { code: INPUT, words: format!("{}: {why}", path.display()) };
+            let text = fs::read_to_string(&path).map_err(|why| refuse(why.to_string()))?;
+            Some(table(anchor, &text).map_err(|why| refuse(why.to_string()))?)
         }
     };
     let apart = read.as_ref().map(|read| error(&ours.values, &read.values));
@@ -95,14 +117,14 @@ fn contest(anchor: &Anchor, quick: bool) -> Contest {
         (false, false) => 1_000_000,
         (false, true) => 200_000,
         (true, false) => 5_000_000,
-        (true, true) => 500_000,
+        (true, true) => 1_000_000,
     };
     let timing = if quick {
         Timing { least: 1, most: 7, share_s: 0.005, batch_s: 1e-4 }
     } else {
         Timing { least: 5, most: 31, share_s: 0.1, batch_s: 2e-4 }
     };
-    let every = if quick { 3 } else { 1 };
+    let every = if quick { 2 } else { 1 };
     let rtols = RTOLS.into_iter().step_by(every).collect();
     Contest { rtols, limits: Limits { evaluations }, timing }
 }
