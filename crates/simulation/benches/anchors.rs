@@ -114,10 +114,9 @@ fn reference(anchor: &Anchor, refs: Option<&PathBuf>) -> Result<Answer, Failed> 
 /// evaluations for three periods has lost; an explicit method on a stiff plant needs several.
 fn contest(anchor: &Anchor, quick: bool) -> Contest {
     let evaluations = match (anchor.task.plant.is_some(), quick) {
-        (false, false) => 1_000_000,
         (false, true) => 200_000,
         (true, false) => 5_000_000,
-        (true, true) => 1_000_000,
+        _ => 1_000_000,
     };
     let timing = if quick {
         Timing { least: 1, most: 7, share_s: 0.005, batch_s: 1e-4 }

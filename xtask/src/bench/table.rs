@@ -43,7 +43,7 @@ fn built(run: &Saved) -> String {
         run.libraries.iter().map(|(name, version)| format!("{name} {version}")).collect();
     let patch = run.patch.as_ref().map_or(String::new(), |patch| {
         let sources = patch.sources.get(..12).unwrap_or(&patch.sources);
-        format!("; {} {} PATCHED, sources {sources}", patch.library, patch.version)
+        format!("; {} from CHANGED sources {sources}", patch.library)
     });
     format!(
         "{}, one thread; {}, built {native} ({}); {}{patch}\n",
