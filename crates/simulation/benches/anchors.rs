@@ -3,7 +3,7 @@
 //! `anchors [P1 …] [--quick] [--refs DIR]`, started by `cargo xtask bench anchors`, writes JSON, a line for
 //! each thing it has to tell: how it was built, the references, the rows.
 
-use cpu_time::ThreadTime;
+use cpu_time::{ProcessTime, ThreadTime};
 use integrate::Limits;
 use serde_json::{Value, json};
 use simulation::anchors::{
@@ -73,7 +73,7 @@ fn all() -> Result<(), Failed> {
     tell(
         &json!({ "built": { "target_features": features(), "optimised": !cfg!(debug_assertions) } }),
     )?;
-    let start = ThreadTime::try_now()?;
+    let (process, start) = (ProcessTime::try_now()?, ThreadTime::try_now()?);
     let mut clock = || start.elapsed().as_secs_f64();
     for anchor in anchors()? {
         if !asked.problems.is_empty() && !asked.problems.iter().any(|p| p == anchor.problem) {
@@ -84,7 +84,17 @@ fn all() -> Result<(), Failed> {
             tell(&json!({ "row": row }))?;
         }
     }
-    Ok(())
+    alone(process.elapsed().as_secs_f64(), clock())
+}
+
+/// Refuses a run whose methods worked on other threads too: this thread's clock did not see it.
+fn alone(process_s: f64, thread_s: f64) -> Result<(), Failed> {
+    if process_s <= 1.02 * thread_s + 0.1 {
+        return Ok(());
+    }
+    let words =
+        format!("{process_s} s of CPU in all, {thread_s} s of this thread: expected the same");
+    Err(Failed { code: BUG, words })
 }
 
 /// The reference of an anchor: the table in `refs` if there is one, else our own; how far both are apart is

@@ -123,6 +123,58 @@ fn the_answers_are_those_of_an_independent_method_in_long_arithmetic() {
     assert!((p3.values[30] - held.sum::<f64>()).abs() < 1e-14);
 }
 
+/// The statement's own recursion, all 601 points: from turn to turn w = 1 − sF/F_C with
+/// w^(1−γ) = w₀^(1−γ) − (1−γ) σ|Δu|/F_C.
+#[test]
+fn the_answers_of_dahl_are_those_of_the_recursion_in_w() {
+    for gamma in [0.0, 0.25, 1.0, 2.0_f64] {
+        let anchor = anchor("P1", Some(gamma));
+        let answer = answer(&anchor).unwrap();
+        let advance = |force: f64, from: f64, to: f64| {
+            let (s, way) = ((to - from).signum(), (to - from).abs() * 1.5 / 0.75);
+            let w = 1.0 - s * force / 0.75;
+            let w = if gamma == 1.0 {
+                w * (-way).exp()
+            } else {
+                let z = w.powf(1.0 - gamma) - (1.0 - gamma) * way;
+                (if gamma < 1.0 { z.max(0.0) } else { z }).powf(1.0 / (1.0 - gamma))
+            };
+            s * 0.75 * (1.0 - w)
+        };
+        // u, F at the last turn; the turns are points 50, 150, …, where u = ±1.
+        let (mut turn, mut force) = (0.0, 0.0);
+        let u = |i: usize| (0.1 * anchor.grid[i]).sin();
+        let mut worst = 0.0_f64;
+        for i in 1..=600 {
+            worst = worst.max((answer.values[i] - advance(force, turn, u(i))).abs());
+            if i % 100 == 50 {
+                (force, turn) = (advance(force, turn, u(i)), u(i));
+            }
+        }
+        assert!(worst < 1e-13, "γ = {gamma}: {worst:.1e} N apart");
+    }
+}
+
+/// x_i is drawn along by the band u ± Δ_i, all 601 points.
+#[test]
+fn the_answers_of_maxwell_slip_are_those_of_the_clipped_positions() {
+    let anchor = anchor("P3", None);
+    let answer = answer(&anchor).unwrap();
+    let mut x = [0.0_f64; 10];
+    let mut worst = 0.0_f64;
+    for (i, t) in anchor.grid.iter().enumerate() {
+        let u = 0.01 * (0.1 * t).sin();
+        let mut force = 0.0;
+        for (j, x) in x.iter_mut().enumerate() {
+            let (k, delta) = (1.0 + 0.8 * j as f64, 1.5e-3 + 0.9e-3 * j as f64);
+            *x = x.clamp(u - delta, u + delta);
+            force += k * (u - *x);
+        }
+        worst = worst.max((answer.values[i] - force).abs());
+    }
+    assert!(worst < 1e-14, "{worst:.1e} N apart");
+}
+
 /// Displacements [m] at points of the grid.
 const P4_END: [(usize, f64); 3] =
     [(1000, 2.305_177_419_646_976), (3141, 0.501_644_243_058_042), (6283, -0.500_009_706_852_356)];
@@ -209,7 +261,7 @@ fn every_method_is_looked_at_and_only_a_right_answer_is_timed() {
         // A tick to warm up and one for each repeat, until 2.5 s are spent.
         assert_eq!(row.repeats_s, [1.0, 1.0], "{}", row.key());
         assert_eq!(row.cpu_s, Some(1.0));
-        assert!(row.evaluations > 0 && row.accepted > 0);
+        assert!(row.evaluations > 0 && (row.ours || row.accepted > 0), "{}", row.key());
     }
     let dopri5 = |rtol: f64, restart: bool| {
         let at = |row: &&&Row| {

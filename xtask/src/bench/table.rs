@@ -74,7 +74,9 @@ fn section(text: &mut String, rows: &[&Row]) {
         let [ours, library] = [ours, library].map(|row| row.map_or("none".to_owned(), told));
         let _ = writeln!(text, "  {error:<8.0e} {ours:<44}{library:<44}{ratio}");
     }
-    let silent: Vec<&&Row> = rows.iter().filter(|row| row.silent_failure()).collect();
+    let mut silent: Vec<&&Row> = rows.iter().filter(|row| row.silent_failure()).collect();
+    let error = |row: &Row| row.error.unwrap_or(f64::INFINITY);
+    silent.sort_by(|a, b| error(b).total_cmp(&error(a)));
     let failed = rows.iter().filter(|row| row.status != simulation::anchors::SOLVED).count();
     let _ = writeln!(
         text,

@@ -14,7 +14,8 @@ pub(super) struct Change {
 /// last bits.
 const ROUNDING: f64 = 1e-12;
 
-/// Claims whose verdict, or whose number, beyond its error, changed; and those that are new or gone.
+/// Claims whose verdict, or whose number, beyond its error, changed; and those that are new or gone. None
+/// if one of the runs holds no claims at all.
 pub(super) fn claims(a: &[ClaimThen], b: &[ClaimThen]) -> Vec<Change> {
     both(
         a,
@@ -55,6 +56,9 @@ fn both<T>(
     id: impl Fn(&T) -> &String,
     changed: impl Fn(&T, &T) -> Option<String>,
 ) -> Vec<Change> {
+    if a.is_empty() || b.is_empty() {
+        return Vec::new();
+    }
     let after: BTreeMap<&String, &T> = b.iter().map(|item| (id(item), item)).collect();
     let before: BTreeMap<&String, &T> = a.iter().map(|item| (id(item), item)).collect();
     let mut changes = Vec::new();
