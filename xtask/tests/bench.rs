@@ -111,6 +111,9 @@ fn rows_as_json_are_one_a_line() {
     assert_eq!(ran.code, Some(0), "{ran:?}");
     let rows: Vec<Value> =
         ran.out.lines().map(|line| serde_json::from_str(line).expect("a row")).collect();
+    let first = ran.out.lines().next().unwrap_or_default();
+    let design = "{\"problem\":\"P6\",\"parameter\":null,\"solver\":\"bdf\",\"ours\":false,";
+    assert!(first.starts_with(design), "{first}");
     assert_eq!(rows, [row("bdf", 900, 1e-3), row("dopri5", 10, 1e-3)]);
 }
 

@@ -1,7 +1,7 @@
 //! The anchors timed: the one program here that has a clock, that of its thread's CPU time.
 //!
 //! `anchors [P1 …] [--quick] [--refs DIR]`, started by `cargo xtask bench anchors`, writes JSON, a line for
-//! each thing it has to tell: how it was built, the references, the rows.
+//! each thing it has to tell: how it was built, the references, the rows, what went wrong.
 
 use cpu_time::{ProcessTime, ThreadTime};
 use integrate::Limits;
@@ -9,7 +9,13 @@ use serde_json::{Value, json};
 use simulation::anchors::{
     Anchor, Answer, Contest, PROBLEMS, RTOLS, Timing, anchors, answer, error, run, table,
 };
-use std::{error::Error, fs, io::Write, path::PathBuf, process::ExitCode};
+use std::{
+    error::Error,
+    fs,
+    io::Write,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
 fn main() -> ExitCode {
     // A solver that panics is a row of the table.
@@ -17,7 +23,7 @@ fn main() -> ExitCode {
     match all() {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failed { code, words }) => {
-            let _ = writeln!(std::io::stderr(), "error: {words}");
+            let _ = tell(&json!({ "wrong": words }));
             ExitCode::from(code)
         }
     }
@@ -75,11 +81,17 @@ fn all() -> Result<(), Failed> {
     )?;
     let (process, start) = (ProcessTime::try_now()?, ThreadTime::try_now()?);
     let mut clock = || start.elapsed().as_secs_f64();
-    for anchor in anchors()? {
-        if !asked.problems.is_empty() && !asked.problems.iter().any(|p| p == anchor.problem) {
-            continue;
-        }
-        let reference = reference(&anchor, asked.refs.as_ref())?;
+    let wanted = |anchor: &Anchor| {
+        asked.problems.is_empty() || asked.problems.iter().any(|p| p == anchor.problem)
+    };
+    // A table that cannot be read is told before minutes are spent.
+    let mut chosen = Vec::new();
+    for anchor in anchors()?.into_iter().filter(wanted) {
+        let read = asked.refs.as_ref().map(|refs| read(&anchor, refs)).transpose()?;
+        chosen.push((anchor, read.flatten()));
+    }
+    for (anchor, read) in chosen {
+        let reference = reference(&anchor, read)?;
         for row in run(&anchor, &reference.values, &contest(&anchor, asked.quick), &mut clock)? {
             tell(&json!({ "row": row }))?;
         }
@@ -97,21 +109,21 @@ fn alone(process_s: f64, thread_s: f64) -> Result<(), Failed> {
     Err(Failed { code: BUG, words })
 }
 
-/// The reference of an anchor: the table in `refs` if there is one, else our own; how far both are apart is
-/// told.
-fn reference(anchor: &Anchor, refs: Option<&PathBuf>) -> Result<Answer, Failed> {
-    let ours = answer(anchor)?;
+/// The table of an anchor in the folder, if there is one.
+fn read(anchor: &Anchor, refs: &Path) -> Result<Option<Answer>, Failed> {
     let name = format!("{}_{}.txt", anchor.problem, anchor.parameter.unwrap_or(0.0));
-    let path = refs.map(|folder| folder.join(name)).filter(|path| path.is_file());
-    let read = match path {
-        None => None,
-        Some(path) => {
-            let refuse =
-                |why: String| Failed { code: INPUT, words: format!("{}: {why}", path.display()) };
-            let text = fs::read_to_string(&path).map_err(|why| refuse(why.to_string()))?;
-            Some(table(anchor, &text).map_err(|why| refuse(why.to_string()))?)
-        }
-    };
+    let path = refs.join(name);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let refuse = |why: String| Failed { code: INPUT, words: format!("{}: {why}", path.display()) };
+    let text = fs::read_to_string(&path).map_err(|why| refuse(why.to_string()))?;
+    table(anchor, &text).map(Some).map_err(|why| refuse(why.to_string()))
+}
+
+/// The reference of an anchor: the table if there is one, else our own; how far both are apart is told.
+fn reference(anchor: &Anchor, read: Option<Answer>) -> Result<Answer, Failed> {
+    let ours = answer(anchor)?;
     let apart = read.as_ref().map(|read| error(&ours.values, &read.values));
     tell(&json!({ "reference": {
         "problem": anchor.problem, "parameter": anchor.parameter, "way": ours.way, "error": ours.error,

@@ -2,10 +2,12 @@
 //! never timed.
 
 use duhem::Parameter;
-use integrate::Limits;
+use integrate::{Limits, Outcome, Work};
 use simulation::anchors::{
-    Anchor, AnswerError, Contest, Row, RowControl, Timing, anchors, answer, error, run, table,
+    Anchor, AnswerError, Contest, Row, RowControl, Timing, Verified, anchors, answer, contestants,
+    error, run, table,
 };
+use simulation::{Delivered, Method, Own, Solves};
 use std::f64::consts::PI;
 
 fn anchor(problem: &str, parameter: Option<f64>) -> Anchor {
@@ -335,4 +337,49 @@ fn a_row_is_written_as_the_design_says() {
     assert!(!with(2e-2, 1e-4).silent_failure(), "within a thousand tolerances");
     assert!(with(2e-1, 1e-4).silent_failure() && !with(2e-1, 1e-4).right());
     assert!(!Row { status: "diverged".to_owned(), ..with(2.0, 1e-9) }.silent_failure());
+}
+
+/// A method that takes the reference for its answer, and one that is off by a fifth and does not say so.
+#[derive(Debug)]
+struct Knows(Vec<f64>);
+
+impl Solves for Knows {
+    fn deliver(&self, rtol: f64, _: &Limits, grid: &[f64], states: &mut [f64]) -> Delivered {
+        assert_eq!(grid.len(), states.len());
+        for (state, value) in states.iter_mut().zip(&self.0) {
+            *state = if rtol > 1e-4 { 1.2 * value } else { *value };
+        }
+        let work = Work { evaluations: 5, ..Work::default() };
+        Delivered { work, outcome: Outcome::Solved }
+    }
+}
+
+static KNOWS: Own = Own {
+    name: "knows",
+    holds: "in this test",
+    build: |_| Ok(Box::new(Knows(answer(&anchor("P1", Some(1.0))).expect("an answer").values))),
+};
+
+#[test]
+fn an_exact_method_of_ours_is_one_row_and_an_adaptive_one_a_row_for_each_tolerance() {
+    let p1 = anchor("P1", Some(1.0));
+    let (reference, motion) = (answer(&p1).unwrap().values, p1.task.motion().unwrap());
+    let problem = motion.problem(p1.task.y0.clone());
+    let ready = || (KNOWS.build)(&p1.task).unwrap();
+    let own = [(Method::Exact(&KNOWS), ready()), (Method::Adaptive(&KNOWS), ready())];
+    let contest = small(&[1e-3, 1e-6], 100_000);
+    let mut states = vec![0.0; 601];
+    let on = (&p1, motion.as_ref());
+    let rows: Vec<Row> = contestants(&own, &problem, &contest.rtols)
+        .into_iter()
+        .map(|one| Verified::new(one, on, &reference, &contest.limits, &mut states).row)
+        .filter(|row| row.ours)
+        .collect();
+    let told: Vec<_> = rows.iter().map(|row| (row.control, row.right())).collect();
+    let rtol = |rtol| Some(RowControl { rtol });
+    assert_eq!(told, [(None, false), (rtol(1e-3), false), (rtol(1e-6), true)], "{rows:?}");
+    assert_eq!(rows[2].error, Some(0.0));
+    assert!((rows[1].error.unwrap() - 0.2).abs() < 1e-12 && !rows[1].silent_failure());
+    assert!(rows[0].silent_failure(), "an exact method may be off by 1e-3 at most");
+    assert!(rows.iter().all(|row| row.restart && row.evaluations == 5));
 }

@@ -116,8 +116,11 @@ fn take(run: &mut Saved, mut value: Value, as_json: bool) -> Result<(), Failure>
     Ok(())
 }
 
+/// In the order of the design, which a map of JSON would not keep.
 fn print(row: &Row) {
-    output::line(&serde_json::json!(row).to_string());
+    if let Ok(text) = serde_json::to_string(row) {
+        output::line(&text);
+    }
 }
 
 fn meant<T: DeserializeOwned>(value: Value) -> Result<T, Failure> {

@@ -96,19 +96,25 @@ pub(super) fn run(
     command.args(arguments).stdin(Stdio::null()).stdout(Stdio::piped());
     let mut child = command.spawn().context("cannot run it").map_err(Failure::environment)?;
     let bug = |words: String| Failure { exit: Exit::Bug, error: anyhow!(words) };
+    let mut wrong = None;
     if let Some(out) = child.stdout.take() {
         for line in BufReader::new(out).lines() {
             let line = line.map_err(Failure::environment)?;
-            let value = serde_json::from_str(&line)
+            let value: Value = serde_json::from_str(&line)
                 .map_err(|why| bug(format!("the benchmark said `{line}`: {why}")))?;
-            told(value)?;
+            match value["wrong"].as_str() {
+                Some(words) => wrong = Some(words.to_owned()),
+                None => told(value)?,
+            }
         }
     }
     let status = child.wait().map_err(Failure::environment)?;
-    match status.code() {
-        Some(0) => Ok(()),
-        // It has said itself what is wrong with a table.
-        Some(4) => Err(Failure { exit: Exit::Input, error: anyhow!("no benchmark was run") }),
-        _ => Err(bug(format!("the benchmark ended with {status}"))),
+    match (status.code(), wrong) {
+        (Some(0), _) => Ok(()),
+        (Some(4), Some(words)) => Err(Failure { exit: Exit::Input, error: anyhow!(words) }),
+        (_, words) => {
+            let words = words.unwrap_or_default();
+            Err(bug(format!("the benchmark ended with {status} {words}").trim().to_owned()))
+        }
     }
 }
