@@ -1,6 +1,7 @@
 //! The commands and their flags.
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, builder::PossibleValuesParser};
+use simulation::anchors::PROBLEMS;
 use std::path::PathBuf;
 
 /// Duhem: the paper's experiments, reproduced.
@@ -45,12 +46,13 @@ pub(crate) enum Command {
         #[arg(long, conflicts_with = "json")]
         markdown: bool,
     },
-    /// Run what takes long, on request.
-    Bench {
-        /// What.
-        #[command(subcommand)]
-        what: Bench,
-    },
+    /// Time the methods on the anchors, or run what else takes long.
+    Bench(BenchArgs),
+    /// Compare two saved runs of the benchmark.
+    ///
+    /// Work is compared exactly, row for row. Ends with 3 if there is more of it, or if a row that was right
+    /// is not any more, provided both runs are of one processor and one kind of build.
+    Compare(CompareArgs),
     /// Start something new.
     New {
         /// What.
@@ -68,10 +70,71 @@ pub(crate) enum Command {
     },
 }
 
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, arg_required_else_help = true)]
+pub(crate) struct BenchArgs {
+    /// What; the anchors if it is not said.
+    #[command(subcommand)]
+    pub(crate) what: Option<Bench>,
+    #[command(flatten)]
+    pub(crate) anchors: AnchorsArgs,
+}
+
 #[derive(Debug, Subcommand)]
 pub(crate) enum Bench {
+    /// Time our methods and the libraries on P1 to P6 at equal delivered error.
+    Anchors(AnchorsArgs),
     /// Try the properties of plants with friction on cases drawn at random.
     Properties(PropertiesArgs),
+}
+
+#[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own on the command line")]
+pub(crate) struct AnchorsArgs {
+    /// The problems; all if none is named.
+    #[arg(value_name = "PROBLEM", value_parser = PossibleValuesParser::new(PROBLEMS))]
+    pub(crate) problems: Vec<String>,
+    /// The rows as JSON, one a line.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// A folder of references made elsewhere, as P5_0.txt: a line `t quantity …` for each time.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) refs: Option<PathBuf>,
+    /// Build for the processor at hand; so it is if nothing is said.
+    #[arg(long, conflicts_with = "portable")]
+    pub(crate) native: bool,
+    /// Build for any processor of the kind.
+    #[arg(long)]
+    pub(crate) portable: bool,
+    /// Every second tolerance, less work allowed, fewer repeats: half a minute and the build.
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Keep the run under this name, for `compare`.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) save: Option<String>,
+    /// Build with a changed library, as diffsol=PATH.
+    #[arg(long, value_name = "LIBRARY=PATH")]
+    pub(crate) patch: Option<String>,
+    /// Run nothing and show a run that was kept: its name or its file.
+    #[arg(long, value_name = "RUN", conflicts_with_all = ["problems", "refs", "native", "portable", "quick", "save", "patch"])]
+    pub(crate) saved: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompareArgs {
+    /// The run before: its name or its file.
+    pub(crate) a: String,
+    /// The run after.
+    pub(crate) b: String,
+    /// Compare times too; end with 3 if one is slower beyond doubt.
+    #[arg(long)]
+    pub(crate) times: bool,
+    /// As a table for a pull request.
+    #[arg(long)]
+    pub(crate) markdown: bool,
+    /// As JSON.
+    #[arg(long, conflicts_with = "markdown")]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

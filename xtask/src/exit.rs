@@ -14,6 +14,8 @@ pub(crate) enum Exit {
     CheckFailed = 1,
     /// A name that is not in the list.
     Usage = 2,
+    /// More work than before, or a right answer lost; times only on request.
+    Regression = 3,
     /// A file that says what cannot be meant.
     Input = 4,
     /// Stopped from outside; everything resumable.

@@ -3,6 +3,7 @@
 mod bench;
 mod claims;
 mod cli;
+mod compare;
 mod exit;
 mod list;
 mod new;
@@ -10,11 +11,12 @@ mod output;
 mod progress;
 mod reproduce;
 mod root;
+mod saved;
 mod screen;
 mod tidy;
 
 use clap::Parser;
-use cli::{Bench, Cli, Command};
+use cli::{Cli, Command};
 use exit::{Exit, Failure};
 use std::{panic, process::ExitCode};
 
@@ -42,7 +44,8 @@ fn run(cli: &Cli) -> Result<Exit, Failure> {
         Command::Show { name, json } => list::show(&root, name, *json),
         Command::Claims { markdown: true, .. } => claims::markdown(&root),
         Command::Claims { json, .. } => claims::claims(&root, *json),
-        Command::Bench { what: Bench::Properties(arguments) } => Ok(bench::properties(arguments)),
+        Command::Bench(arguments) => bench::bench(&root, arguments),
+        Command::Compare(arguments) => compare::compare(&root, arguments),
         Command::New { what } => new::new(&root, what),
         Command::Tidy { equations: true, .. } => tidy::equations(&root),
         Command::Tidy { json, .. } => tidy::tidy(&root, *json),

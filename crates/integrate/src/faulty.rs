@@ -17,14 +17,17 @@ pub const FAULTY: &[Solver] = &[
 
 const fn faulty(
     name: &'static str,
-    run: fn(&Segment<'_>, &Control, &mut Recorder) -> Result<(), Failure>,
+    run: fn(&Segment<'_>, &Control, &mut Recorder<'_>) -> Result<(), Failure>,
 ) -> Solver {
     let defect = Some("misbehaves on purpose");
     Solver { name, library: "own", order: Order::Fixed(1), implicit: false, defect, run }
 }
 
 /// One good step of Euler's method.
-fn first_step(segment: &Segment<'_>, recorder: &mut Recorder) -> Result<(f64, Vec<f64>), Failure> {
+fn first_step(
+    segment: &Segment<'_>,
+    recorder: &mut Recorder<'_>,
+) -> Result<(f64, Vec<f64>), Failure> {
     let h = (segment.end - segment.start) / 10.0;
     let mut f = vec![0.0; segment.dimension()];
     segment.derivative(segment.start, &segment.y0, &mut f);
@@ -33,7 +36,11 @@ fn first_step(segment: &Segment<'_>, recorder: &mut Recorder) -> Result<(f64, Ve
     Ok((h, y))
 }
 
-fn diverges(segment: &Segment<'_>, _: &Control, recorder: &mut Recorder) -> Result<(), Failure> {
+fn diverges(
+    segment: &Segment<'_>,
+    _: &Control,
+    recorder: &mut Recorder<'_>,
+) -> Result<(), Failure> {
     let (h, mut y) = first_step(segment, recorder)?;
     for k in 2.. {
         for (y, scale) in y.iter_mut().zip(segment.scale) {
@@ -45,13 +52,13 @@ fn diverges(segment: &Segment<'_>, _: &Control, recorder: &mut Recorder) -> Resu
 }
 
 /// Claims success with a state that is not a number.
-fn nan(segment: &Segment<'_>, _: &Control, recorder: &mut Recorder) -> Result<(), Failure> {
+fn nan(segment: &Segment<'_>, _: &Control, recorder: &mut Recorder<'_>) -> Result<(), Failure> {
     let (_, mut y) = first_step(segment, recorder)?;
     y.fill(f64::NAN);
     recorder.accept(segment.end, &y)
 }
 
-fn panics(segment: &Segment<'_>, _: &Control, recorder: &mut Recorder) -> Result<(), Failure> {
+fn panics(segment: &Segment<'_>, _: &Control, recorder: &mut Recorder<'_>) -> Result<(), Failure> {
     first_step(segment, recorder)?;
     panic!("this solver panics on purpose");
 }
@@ -59,7 +66,7 @@ fn panics(segment: &Segment<'_>, _: &Control, recorder: &mut Recorder) -> Result
 fn never_calls_back(
     segment: &Segment<'_>,
     _: &Control,
-    recorder: &mut Recorder,
+    recorder: &mut Recorder<'_>,
 ) -> Result<(), Failure> {
     first_step(segment, recorder)?;
     loop {
@@ -70,7 +77,7 @@ fn never_calls_back(
 fn calls_forever(
     segment: &Segment<'_>,
     _: &Control,
-    recorder: &mut Recorder,
+    recorder: &mut Recorder<'_>,
 ) -> Result<(), Failure> {
     let (h, y) = first_step(segment, recorder)?;
     let mut f = vec![0.0; segment.dimension()];

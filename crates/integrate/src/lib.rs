@@ -3,7 +3,8 @@
 //! One function, [`solve`], takes an [`InitialValueProblem`], an entry of [`SOLVERS`] and a
 //! [`Control`], and hands back a [`Run`]: every accepted step, the work counted by one wrapper for
 //! all libraries alike, and the outcome. A solver that diverges, gives up, panics or asks without
-//! end is a result and never an error of the program; what it computed before is kept.
+//! end is a result and never an error of the program; what it computed before is kept. [`deliver`] does the
+//! same for states at given times, by the dense output of each library.
 //!
 //! **Invariant.** This crate knows no friction, no files and no plots, has no clock, and no type of
 //! a solver library leaves its file in `libraries/`.
@@ -27,7 +28,7 @@ pub use problem::{Control, Corners, Dynamics, Grid, InitialValueProblem, Limits}
 pub use radau::{Integration, Node, Settings, System, radau};
 pub use run::{Failure, Outcome, Run, Trajectory, Work};
 pub use segment::{Recorder, Segment};
-pub use solve::{solve, solving};
+pub use solve::{Sampling, deliver, solve, solving};
 pub use solvers::{Order, SETS, SOLVERS, Solver, set, solver};
 
 /// The solver libraries with the exact versions they are pinned to.

@@ -112,37 +112,113 @@ impl Segment<'_> {
     }
 }
 
-/// Takes down every accepted step of a run.
+/// Takes down every accepted step of a run, or the states at the times asked for.
 #[derive(Debug)]
-pub struct Recorder {
+pub struct Recorder<'g> {
+    /// Every step; of a run that delivers on a grid only the last.
     pub(crate) trajectory: Trajectory,
     pub(crate) accepted: u64,
     pub(crate) rejected: Option<u64>,
     largest: Vec<f64>,
+    grid: Option<Delivery<'g>>,
 }
 
-impl Recorder {
-    pub(crate) fn new(t: f64, y: &[f64], scale: &[f64]) -> Self {
+/// The times asked for, and the states there as far as they are known.
+#[derive(Debug)]
+struct Delivery<'g> {
+    times: &'g [f64],
+    states: &'g mut [f64],
+    next: usize,
+    /// A time asked for that is after another by no more than this is the same: rounding.
+    rounding: f64,
+}
+
+impl<'g> Recorder<'g> {
+    pub(crate) fn new(t: f64, y: &[f64]) -> Self {
         Recorder {
             trajectory: Trajectory { t: vec![t], y: y.to_vec(), n: y.len() },
             accepted: 0,
             rejected: None,
-            largest: scale.iter().map(|s| 1e6 * s).collect(),
+            largest: Vec::new(),
+            grid: None,
         }
     }
 
+    /// The same for a run that delivers its states at `times`, which rise, into `states`.
+    pub(crate) fn on(t: f64, y: &[f64], times: &'g [f64], states: &'g mut [f64]) -> Self {
+        let mut recorder = Recorder::new(t, y);
+        let largest = times.iter().fold(0.0, |largest: f64, t| largest.max(t.abs()));
+        let rounding = 4.0 * f64::EPSILON * largest;
+        recorder.grid = Some(Delivery { times, states, next: 0, rounding });
+        recorder
+    }
+
+    /// A state above a million times its natural size has diverged.
+    pub(crate) fn diverged_above(&mut self, scale: &[f64]) {
+        self.largest = scale.iter().map(|s| 1e6 * s).collect();
+    }
+
+    /// The next time asked for, if it is not after `t`.
+    pub fn due(&self, t: f64) -> Option<f64> {
+        let grid = self.grid.as_ref()?;
+        grid.times.get(grid.next).copied().filter(|due| *due <= t + grid.rounding)
+    }
+
+    /// The times asked for that are not yet delivered and not after `t`.
+    pub fn all_due(&self, t: f64) -> &'g [f64] {
+        self.grid.as_ref().map_or(&[], |grid| {
+            let left = &grid.times[grid.next..];
+            &left[..left.partition_point(|due| *due <= t + grid.rounding)]
+        })
+    }
+
+    /// Takes down the state at the next time asked for, unless it is no good.
+    pub fn deliver(&mut self, y: &[f64]) -> Result<(), Failure> {
+        self.judge(y)?;
+        if let Some(grid) = &mut self.grid {
+            let at = grid.next * y.len();
+            grid.states[at..at + y.len()].copy_from_slice(y);
+            grid.next += 1;
+        }
+        Ok(())
+    }
+
     /// Takes down an accepted step, unless it is no good; the solver then has to stop and to hand
-    /// on the failure.
+    /// on the failure. A run that delivers has delivered what was due before it.
     pub fn accept(&mut self, t: f64, y: &[f64]) -> Result<(), Failure> {
-        if !t.is_finite() || !y.iter().all(|y| y.is_finite()) {
+        self.arrive(t, y)?;
+        self.accepted += 1;
+        Ok(())
+    }
+
+    /// The same without a step, where the library has told of its steps without their states.
+    pub(crate) fn arrive(&mut self, t: f64, y: &[f64]) -> Result<(), Failure> {
+        if !t.is_finite() {
+            return Err(Failure::NotFinite);
+        }
+        self.judge(y)?;
+        if self.grid.is_some() {
+            self.trajectory.t[0] = t;
+            self.trajectory.y.copy_from_slice(y);
+        } else {
+            self.trajectory.t.push(t);
+            self.trajectory.y.extend_from_slice(y);
+        }
+        Ok(())
+    }
+
+    /// Counts an accepted step whose state the library does not tell.
+    pub(crate) fn count(&mut self) {
+        self.accepted += 1;
+    }
+
+    fn judge(&self, y: &[f64]) -> Result<(), Failure> {
+        if !y.iter().all(|y| y.is_finite()) {
             return Err(Failure::NotFinite);
         }
         if y.iter().zip(&self.largest).any(|(y, largest)| y.abs() > *largest) {
             return Err(Failure::Diverged);
         }
-        self.trajectory.t.push(t);
-        self.trajectory.y.extend_from_slice(y);
-        self.accepted += 1;
         Ok(())
     }
 

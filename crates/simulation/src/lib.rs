@@ -6,9 +6,10 @@
 //!
 //! Read first: [`Motion`], what a solver is run on and judged in; [`PrescribedMotion`] and
 //! [`DrivenPlant`], the two of them; [`Path`], a plant's motion once solved. Then [`PlantReference`], by which
-//! the solvers of a plant are judged.
+//! the solvers of a plant are judged, and [`anchors`], the problems on which all methods are timed.
 
 pub mod adaptive;
+pub mod anchors;
 pub mod displacement;
 mod driven;
 pub mod energy;

@@ -4,9 +4,13 @@ use duhem::{Dahl, Input, MODELS, Parameters, Plant, Rig, closed_form::Reference}
 use integrate::{Dynamics, Failure, Limits, Outcome};
 use simulation::{
     DrivenPlant, NotHere, PLANT_REFERENCES, Path, Solves, Task,
-    adaptive::DAHL_SERIES,
+    adaptive::ADAPTIVE,
     energy::{Contact, account},
 };
+
+fn the_method() -> &'static simulation::Own {
+    ADAPTIVE.iter().find(|own| own.name == "dahl-series").expect("it is in the list")
+}
 
 fn task(keys: &[(&str, f64)], plant: Plant, input: Input, y0: [f64; 3], end: f64) -> Task {
     let model = MODELS.iter().find(|entry| entry.name == "dahl").expect("a model of the list");
@@ -27,7 +31,7 @@ fn figure_13(end: f64) -> Task {
 }
 
 fn series(task: &Task) -> Box<dyn Solves> {
-    (DAHL_SERIES.build)(task).expect("it holds for a plant with Dahl friction")
+    (the_method().build)(task).expect("it holds for a plant with Dahl friction")
 }
 
 fn times(end: f64, count: u32) -> Vec<f64> {
@@ -166,7 +170,7 @@ fn forces_that_balance_hold_the_mass_for_ever() {
 
 #[test]
 fn what_it_does_not_solve_is_refused_in_words() {
-    let refused = |task: Task| match (DAHL_SERIES.build)(&task) {
+    let refused = |task: Task| match (the_method().build)(&task) {
         Ok(_) => panic!("{task:?} is none of its own"),
         Err(NotHere { found, .. }) => found,
     };

@@ -5,7 +5,7 @@ use duhem::{
     closed_form::{Reference, lugre::Trajectory},
 };
 use integrate::{Failure, Limits, Outcome};
-use simulation::{NotHere, Solves, Task, adaptive::LUGRE_LINEAR};
+use simulation::{NotHere, Solves, Task, adaptive::ADAPTIVE};
 use std::f64::consts::PI;
 
 const FIGURE_4: [(&str, f64); 6] = [
@@ -17,6 +17,10 @@ const FIGURE_4: [(&str, f64); 6] = [
     ("sigma_2", 0.4),
 ];
 
+fn the_method() -> &'static simulation::Own {
+    ADAPTIVE.iter().find(|own| own.name == "lugre-linear").expect("it is in the list")
+}
+
 fn task(keys: &[(&str, f64)], input: Input, x0: f64, span: (f64, f64)) -> Task {
     let model = MODELS.iter().find(|entry| entry.name == "lugre").expect("a model of the list");
     let parameters: Parameters = keys.iter().copied().collect();
@@ -24,7 +28,7 @@ fn task(keys: &[(&str, f64)], input: Input, x0: f64, span: (f64, f64)) -> Task {
 }
 
 fn linear(task: &Task) -> Box<dyn Solves> {
-    (LUGRE_LINEAR.build)(task).expect("it holds for LuGre under an imposed motion")
+    (the_method().build)(task).expect("it holds for LuGre under an imposed motion")
 }
 
 fn times((start, end): (f64, f64), count: u32) -> Vec<f64> {
@@ -146,7 +150,7 @@ fn however_fast_the_motion_the_panels_stay_few() {
 #[test]
 fn what_it_does_not_solve_is_refused_in_words() {
     let input = || Input::sine(1e-4, 1.0).unwrap();
-    let refused = |task: Task| match (LUGRE_LINEAR.build)(&task) {
+    let refused = |task: Task| match (the_method().build)(&task) {
         Ok(_) => panic!("{task:?} is none of its own"),
         Err(NotHere { found, .. }) => found,
     };

@@ -3,6 +3,7 @@
 #![allow(dead_code, unused_imports, reason = "each test file uses its own part")]
 
 pub(crate) mod run;
+pub(crate) mod saved;
 
 use std::{
     collections::BTreeMap,

@@ -30,7 +30,7 @@ type V = NalgebraVec<f64>;
 pub(crate) fn bdf(
     segment: &Segment<'_>,
     control: &Control,
-    recorder: &mut Recorder,
+    recorder: &mut Recorder<'_>,
 ) -> Result<(), Failure> {
     let problem = problem(segment, control.rtol()?)?;
     drive(segment, recorder, problem.bdf::<LU>().map_err(in_our_words)?)
@@ -39,7 +39,7 @@ pub(crate) fn bdf(
 pub(crate) fn tr_bdf2(
     segment: &Segment<'_>,
     control: &Control,
-    recorder: &mut Recorder,
+    recorder: &mut Recorder<'_>,
 ) -> Result<(), Failure> {
     let problem = problem(segment, control.rtol()?)?;
     drive(segment, recorder, problem.tr_bdf2::<LU>().map_err(in_our_words)?)
@@ -48,7 +48,7 @@ pub(crate) fn tr_bdf2(
 pub(crate) fn esdirk34(
     segment: &Segment<'_>,
     control: &Control,
-    recorder: &mut Recorder,
+    recorder: &mut Recorder<'_>,
 ) -> Result<(), Failure> {
     let problem = problem(segment, control.rtol()?)?;
     drive(segment, recorder, problem.esdirk34::<LU>().map_err(in_our_words)?)
@@ -57,7 +57,7 @@ pub(crate) fn esdirk34(
 pub(crate) fn tsit45(
     segment: &Segment<'_>,
     control: &Control,
-    recorder: &mut Recorder,
+    recorder: &mut Recorder<'_>,
 ) -> Result<(), Failure> {
     let problem = problem(segment, control.rtol()?)?;
     drive(segment, recorder, problem.tsit45().map_err(in_our_words)?)
@@ -102,7 +102,7 @@ fn problem<'a>(
 /// Steps to the end of the segment.
 fn drive<'a, E, S>(
     segment: &Segment<'_>,
-    recorder: &mut Recorder,
+    recorder: &mut Recorder<'_>,
     mut solver: S,
 ) -> Result<(), Failure>
 where
@@ -119,16 +119,53 @@ where
         recorder.reject((attempts - rejected) as u64);
         rejected = attempts;
         let reason = reason.map_err(in_our_words)?;
-        let state = solver.state();
-        let y = state.y.inner().as_slice();
+        let t = solver.state().t;
         match reason {
-            OdeSolverStopReason::TstopReached => return recorder.accept(segment.end, y),
-            OdeSolverStopReason::InternalTimestep => recorder.accept(state.t, y)?,
+            OdeSolverStopReason::TstopReached => {
+                deliver(&solver, recorder, segment.end)?;
+                return recorder.accept(segment.end, at_step(&solver));
+            }
+            OdeSolverStopReason::InternalTimestep => {
+                deliver(&solver, recorder, t)?;
+                recorder.accept(t, at_step(&solver))?;
+            }
             OdeSolverStopReason::RootFound(..) => {
                 return Err(Failure::Stopped("found a root nobody asked for".to_owned()));
             }
         }
     }
+}
+
+/// The state at the end of the last step.
+fn at_step<'s, 'a, E, S>(solver: &'s S) -> &'s [f64]
+where
+    E: OdeEquations<V = V, T = f64> + 'a,
+    S: OdeSolverMethod<'a, E>,
+{
+    solver.state().y.inner().as_slice()
+}
+
+/// Delivers what is due up to the end `t` of the last step, between the steps by the dense output of the
+/// library.
+fn deliver<'a, E, S>(solver: &S, recorder: &mut Recorder<'_>, t: f64) -> Result<(), Failure>
+where
+    E: OdeEquations<V = V, T = f64> + 'a,
+    S: OdeSolverMethod<'a, E>,
+{
+    if recorder.due(t).is_none() {
+        return Ok(());
+    }
+    let mut y = solver.state().y.clone();
+    while let Some(due) = recorder.due(t) {
+        // The library's clock may stop a rounding short of the end.
+        if due >= solver.state().t {
+            recorder.deliver(at_step(solver))?;
+        } else {
+            solver.interpolate_inplace(due, &mut y).map_err(in_our_words)?;
+            recorder.deliver(y.inner().as_slice())?;
+        }
+    }
+    Ok(())
 }
 
 #[expect(clippy::needless_pass_by_value, reason = "it stands in map_err")]

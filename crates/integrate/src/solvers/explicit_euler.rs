@@ -12,7 +12,11 @@ pub(super) const SOLVER: Solver = Solver {
     run,
 };
 
-fn run(segment: &Segment<'_>, control: &Control, recorder: &mut Recorder) -> Result<(), Failure> {
+fn run(
+    segment: &Segment<'_>,
+    control: &Control,
+    recorder: &mut Recorder<'_>,
+) -> Result<(), Failure> {
     let mut f = vec![0.0; segment.dimension()];
     march(segment, control, recorder, |t, h, y| {
         segment.derivative(t, y, &mut f);

@@ -12,7 +12,11 @@ pub(super) const SOLVER: Solver = Solver {
     run,
 };
 
-fn run(segment: &Segment<'_>, control: &Control, recorder: &mut Recorder) -> Result<(), Failure> {
+fn run(
+    segment: &Segment<'_>,
+    control: &Control,
+    recorder: &mut Recorder<'_>,
+) -> Result<(), Failure> {
     let n = segment.dimension();
     let [mut k1, mut k2, mut stage] = std::array::from_fn(|_| vec![0.0; n]);
     march(segment, control, recorder, |t, h, y| {

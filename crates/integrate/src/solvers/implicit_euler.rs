@@ -13,7 +13,11 @@ pub(super) const SOLVER: Solver = Solver {
     run,
 };
 
-fn run(segment: &Segment<'_>, control: &Control, recorder: &mut Recorder) -> Result<(), Failure> {
+fn run(
+    segment: &Segment<'_>,
+    control: &Control,
+    recorder: &mut Recorder<'_>,
+) -> Result<(), Failure> {
     let mut newton = Newton::new(segment.dimension());
     let mut base = segment.y0.clone();
     march(segment, control, recorder, |t, h, y| {

@@ -43,7 +43,7 @@ pub struct Solver {
     pub defect: Option<&'static str>,
     /// Integrates one segment: tells the recorder every accepted step, hands on its failures, and
     /// returns at the segment's end. Called through [`crate::solve`].
-    pub run: fn(&Segment<'_>, &Control, &mut Recorder) -> Result<(), Failure>,
+    pub run: fn(&Segment<'_>, &Control, &mut Recorder<'_>) -> Result<(), Failure>,
 }
 
 /// All solvers that are compared.
@@ -93,7 +93,7 @@ pub fn set(name: &str) -> Option<Vec<&'static Solver>> {
 fn march(
     segment: &Segment<'_>,
     control: &Control,
-    recorder: &mut Recorder,
+    recorder: &mut Recorder<'_>,
     mut step: impl FnMut(f64, f64, &mut [f64]) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let grid = control.grid(segment)?;

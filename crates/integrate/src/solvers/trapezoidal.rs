@@ -13,7 +13,11 @@ pub(super) const SOLVER: Solver = Solver {
     run,
 };
 
-fn run(segment: &Segment<'_>, control: &Control, recorder: &mut Recorder) -> Result<(), Failure> {
+fn run(
+    segment: &Segment<'_>,
+    control: &Control,
+    recorder: &mut Recorder<'_>,
+) -> Result<(), Failure> {
     let n = segment.dimension();
     let mut newton = Newton::new(n);
     let [mut f, mut base] = std::array::from_fn(|_| vec![0.0; n]);

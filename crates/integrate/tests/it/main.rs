@@ -2,6 +2,7 @@
 
 mod common;
 mod corners;
+mod deliver;
 mod failures;
 mod order;
 mod radau;

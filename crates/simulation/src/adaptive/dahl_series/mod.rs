@@ -16,7 +16,7 @@ use run::Run;
 use series::{Equations, Series, State, TERMS};
 
 /// A plant with Dahl friction under a harmonic drive.
-pub const DAHL_SERIES: Own = Own {
+pub(super) const METHOD: Own = Own {
     name: "dahl-series",
     holds: "a plant with Dahl friction, γ ≥ 1, under a sine, an offset cosine or a constant drive",
     build: |task| Ok(Box::new(DahlSeries::new(task)?)),

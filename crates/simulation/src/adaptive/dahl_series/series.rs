@@ -1,7 +1,7 @@
 //! The power series of the motion between two reversals.
 
-use super::super::fma;
 use duhem::{Dahl, Harmonic, Plant};
+use integrate::collocation::fma;
 
 /// Most coefficients of a series.
 pub(super) const TERMS: usize = 32;

@@ -1,9 +1,7 @@
 //! Where a velocity given by a series first changes its sign.
 
-use super::{
-    super::fma,
-    series::{Series, polynomial},
-};
+use super::series::{Series, polynomial};
+use integrate::collocation::fma;
 
 /// A velocity that is only this many units of rounding beyond zero touches it and does not turn.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;

@@ -15,7 +15,7 @@ use panel::{Driven, LANES};
 use rule::{N, Rule};
 
 /// LuGre under any imposed motion.
-pub const LUGRE_LINEAR: Own = Own {
+pub(super) const METHOD: Own = Own {
     name: "lugre-linear",
     holds: "LuGre under any imposed motion",
     build: |task| Ok(Box::new(LugreLinear::new(task)?)),

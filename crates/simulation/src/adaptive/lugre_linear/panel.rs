@@ -1,9 +1,7 @@
 //! One panel of time: collocation of a linear equation, its series, and points read off it.
 
-use super::{
-    super::fma,
-    rule::{N, Rule},
-};
+use super::rule::{N, Rule};
+use integrate::collocation::fma;
 
 /// Points read off a series at once, side by side.
 pub(super) const LANES: usize = 16;

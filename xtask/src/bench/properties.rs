@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: what takes long and is run on request only.
+//! `cargo xtask bench properties`: the properties of plants, on cases drawn at random.
 
 use crate::{cli::PropertiesArgs, exit::Exit, output};
 use serde_json::json;
@@ -6,7 +6,7 @@ use simulation::properties::{PROPERTIES, Property, Report};
 use std::thread;
 
 /// Tries every property of plants with friction on many cases drawn at random.
-pub(crate) fn properties(arguments: &PropertiesArgs) -> Exit {
+pub(crate) fn run(arguments: &PropertiesArgs) -> Exit {
     let processors = || thread::available_parallelism().map_or(1, usize::from);
     let threads = arguments.threads.map_or_else(processors, usize::from);
     let mut reports = Vec::new();
