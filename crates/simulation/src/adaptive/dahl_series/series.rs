@@ -149,7 +149,7 @@ impl Series {
 }
 
 /// The polynomial of these coefficients at these places.
-pub(super) fn polynomial<const N: usize>(c: &[f64], tau: &[f64; N]) -> [f64; N] {
+fn polynomial<const N: usize>(c: &[f64], tau: &[f64; N]) -> [f64; N] {
     let mut sum = [0.0; N];
     for c in c.iter().rev() {
         for lane in 0..N {

@@ -1,6 +1,6 @@
 //! Where a velocity given by a series first changes its sign.
 
-use super::series::{Series, polynomial};
+use super::series::Series;
 use integrate::collocation::fma;
 
 /// A velocity that is only this many units of rounding beyond zero touches it and does not turn.
@@ -117,8 +117,7 @@ fn root(series: &Series, a: Place, b: Place) -> f64 {
     let mut here = (b.tau, b.p);
     for _ in 0..200 {
         let before = here;
-        let [v] = polynomial(&series.v[..=series.order], &[next]);
-        here = (next, series.from.s * v);
+        here = (next, velocity(series, next));
         if here.1 >= 0.0 {
             low = next;
         } else {
@@ -138,6 +137,12 @@ fn root(series: &Series, a: Place, b: Place) -> f64 {
         }
     }
     high
+}
+
+/// The velocity in the direction of motion at τ.
+fn velocity(series: &Series, tau: f64) -> f64 {
+    let v = &series.v[..=series.order];
+    series.from.s * v.iter().rev().fold(0.0, |sum, v| fma(sum, tau, *v))
 }
 
 fn place(series: &Series, tau: f64) -> Place {
