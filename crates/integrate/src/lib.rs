@@ -13,6 +13,7 @@
 //! of the list; [`Run`], what comes back.
 
 pub mod collocation;
+mod ensemble;
 mod faulty;
 mod libraries;
 mod newton;
@@ -23,6 +24,7 @@ mod segment;
 mod solve;
 mod solvers;
 
+pub use ensemble::ensemble;
 pub use faulty::FAULTY;
 pub use problem::{Control, Corners, Dynamics, Grid, InitialValueProblem, Limits};
 pub use radau::{Integration, Node, Settings, System, radau};

@@ -13,6 +13,7 @@ pub mod anchors;
 pub mod displacement;
 mod driven;
 pub mod energy;
+mod ensemble;
 mod error;
 pub mod exact;
 mod methods;
@@ -25,6 +26,7 @@ mod task;
 
 pub use driven::DrivenPlant;
 pub use energy::Energy;
+pub use ensemble::{Ensemble, best};
 pub use error::SimulationError;
 pub use methods::{Delivered, Method, NotHere, Own, Solves, method, methods};
 pub use motion::Motion;

@@ -21,7 +21,7 @@ impl<T: Kinked<N>, const N: usize, const S: usize, const W: usize, const B: usiz
 {
     /// Shortens a step that heads for the zone from outside so that it lands at its border.
     pub(super) fn approach(&mut self) {
-        let Some(kink) = self.system.kink() else { return };
+        let Some(kink) = self.system.kink().filter(|kink| kink.zone > 0.0) else { return };
         let (v, slope) = (self.side * self.y[kink.state], self.side * self.y_dot[kink.state]);
         if v > OUTSIDE * kink.zone && slope < 0.0 && v + slope * self.h < LANDING * kink.zone {
             self.h = (v - LANDING * kink.zone) / -slope;
@@ -34,7 +34,7 @@ impl<T: Kinked<N>, const N: usize, const S: usize, const W: usize, const B: usiz
         let (j, h) = (kink.state, trial.h);
         let from = self.side * self.y[j];
         let at = |s: usize| self.side * (self.y[j] + trial.solved.z[j][s]);
-        if from > OUTSIDE * kink.zone && at(S - 1) < 0.5 * LANDING * kink.zone {
+        if kink.zone > 0.0 && from > OUTSIDE * kink.zone && at(S - 1) < 0.5 * LANDING * kink.zone {
             let part = self.falls_to(&trial.solved, j, LANDING * kink.zone);
             if part < 0.9 {
                 return Ok(Verdict::Again(part * h));

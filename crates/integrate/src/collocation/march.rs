@@ -233,11 +233,15 @@ impl<T: Kinked<N>, const N: usize, const S: usize, const W: usize, const B: usiz
         }
         let end: [f64; N] = std::array::from_fn(|i| self.y[i] + solved.z[i][S - 1]);
         weights = self.weights(&end);
-        let error = blocks.error::<N, S, W>(self.tableau, (h, &self.y_dot, &weights), &solved.z);
+        let error = blocks.error::<N, S, W>(self.tableau, (h, &self.y_dot, &weights), &solved);
         let cautious = SAFETY * 25.0 / (24.0 + f64::from(solved.iterations));
         if error.is_nan() || error >= 1.0 {
             let shorter = (cautious * rough_power(error, Self::EXPONENT)).clamp(0.1, 0.9);
             self.h *= if error.is_finite() { shorter } else { 0.1 };
+            return Ok(None);
+        }
+        if !self.system.admits(&end) {
+            self.h *= 0.5;
             return Ok(None);
         }
         let grows = self.grows(&solved, &end, error, cautious);
@@ -298,7 +302,7 @@ impl<T: Kinked<N>, const N: usize, const S: usize, const W: usize, const B: usiz
             let ratio = to / from;
             if from > 0.0 && ratio > 1.0 {
                 grows = grows.min((BLOW_UP / (ratio - 1.0)).max(0.3));
-            } else if from > kink.zone && ratio > 0.0 {
+            } else if kink.zone > 0.0 && from > kink.zone && ratio > 0.0 {
                 grows = grows.min((BLOW_UP * ratio / (1.0 - ratio)).max(0.3));
             }
         }

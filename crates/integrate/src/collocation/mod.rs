@@ -52,6 +52,12 @@ pub trait Kinked<const N: usize> {
     /// Goes to the side of the kink where its state has this sign, 1 or −1.
     fn take_side(&mut self, _side: f64) {}
 
+    /// Whether a state can be one of a solution. A step that ends in one that cannot is taken again, shorter,
+    /// and a run in which no step is short enough fails.
+    fn admits(&self, _y: &[f64; N]) -> bool {
+        true
+    }
+
     /// The rate [1/s] at which the fastest instability grows where the Jacobian matrix is `jacobian`; 0 if
     /// there is none.
     fn growth(&self, _jacobian: &[[f64; N]; N]) -> f64 {

@@ -12,18 +12,22 @@ use std::sync::LazyLock;
 /// Wanner, *Solving Ordinary Differential Equations II*, section IV.8.)
 #[derive(Debug)]
 pub(super) struct Tableau<const W: usize, const B: usize> {
-    /// The times of the stages as parts of the step; beyond the last stage it is 0.
+    /// The times of the stages as parts of the step, and after them that of the look between them, which
+    /// takes the place that vectors of W have left: where a polynomial through the stages is worst.
     pub(super) c: [f64; W],
     /// Eigenvalues: the real one, then those with positive imaginary part; beyond the last it is 1.
     pub(super) lambda: ([f64; B], [f64; B]),
     /// V⁻¹, for each stage what it adds to the blocks, real and imaginary.
     pub(super) into: [([f64; B], [f64; B]); W],
-    /// V, for each block what it adds to the stages by its real and by its imaginary part.
+    /// V, for each block what it adds to the stages by its real and by its imaginary part; and to the
+    /// polynomial at the look between them.
     pub(super) back: [([f64; W], [f64; W]); B],
     /// The coefficients of θ, θ² … of z(θ) that the increment of each stage adds.
     pub(super) power: [[f64; W]; W],
     /// The weights of the increments in the error estimate.
     pub(super) error: [f64; W],
+    /// The weights of the increments in the slope of the polynomial at the look between the stages.
+    pub(super) slope: [f64; W],
 }
 
 /// Three stages, order 5.
@@ -63,6 +67,7 @@ impl<const W: usize, const B: usize> Tableau<W, B> {
             back: [([0.0; W], [0.0; W]); B],
             power: [[0.0; W]; W],
             error: [0.0; W],
+            slope: [0.0; W],
         };
         tableau.c[..stages].copy_from_slice(&c);
         for (b, (lambda, v)) in pairs.iter().enumerate() {
@@ -75,8 +80,21 @@ impl<const W: usize, const B: usize> Tableau<W, B> {
                 (tableau.back[b].0[j], tableau.back[b].1[j]) = (twice * v[j].re, -twice * v[j].im);
             }
         }
+        let between = worst(&c);
+        tableau.c[stages] = between;
         for j in 0..stages {
-            tableau.power[j][..stages].copy_from_slice(&powers(&c, j));
+            let power = powers(&c, j);
+            // Horner's scheme for the value and the slope at once.
+            let (value, slope) = power.iter().rev().fold((0.0, 0.0), |(value, slope), a| {
+                (value * between + a, slope * between + value)
+            });
+            let (value, slope) = (value * between, value + slope * between);
+            tableau.slope[j] = slope;
+            for (re, im) in &mut tableau.back {
+                re[stages] += value * re[j];
+                im[stages] += value * im[j];
+            }
+            tableau.power[j][..stages].copy_from_slice(&power);
             let weight = |i: usize| -lagrange_at_zero(&c, i) * d[(i, j)];
             tableau.error[j] = (0..stages).map(weight).sum();
         }
@@ -134,6 +152,13 @@ fn differentiation(c: &[f64]) -> DMatrix<f64> {
         }
     };
     DMatrix::from_fn(c.len(), c.len(), |i, j| entry(i + 1, j + 1))
+}
+
+/// Where the polynomial with zeros at 0 and the nodes is largest on the step, to a thousandth.
+fn worst(c: &[f64]) -> f64 {
+    let size = |theta: f64| c.iter().fold(theta, |product, c| product * (theta - c)).abs();
+    let places = (1..1000).map(|i| f64::from(i) / 1000.0);
+    places.fold(0.5, |best, theta| if size(theta) > size(best) { theta } else { best })
 }
 
 /// The coefficients of θ, θ² … of that polynomial for node j.

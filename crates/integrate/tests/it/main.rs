@@ -1,5 +1,6 @@
 //! What the solvers do, over their list.
 
+mod collocation;
 mod common;
 mod corners;
 mod deliver;

@@ -33,6 +33,9 @@ pub(super) trait Contact: Send + Sync + std::fmt::Debug {
     /// The speed [m/s] below which the friction changes most; 0 if it has no such speed.
     fn zone(&self) -> f64;
 
+    /// The largest |x| that a motion can lead to from a smaller one.
+    fn limit(&self) -> f64;
+
     /// The displacement [m] over which the contact is deflected to its limit.
     fn deflection(&self) -> f64;
 }
@@ -76,8 +79,12 @@ impl Contact for LuGre {
         STRIBECK_ZONE * self.v_s
     }
 
-    fn deflection(&self) -> f64 {
+    fn limit(&self) -> f64 {
         self.f_s / self.sigma_0
+    }
+
+    fn deflection(&self) -> f64 {
+        self.limit()
     }
 }
 
@@ -111,6 +118,10 @@ impl Contact for Dahl {
 
     fn zone(&self) -> f64 {
         0.0
+    }
+
+    fn limit(&self) -> f64 {
+        self.f_c
     }
 
     fn deflection(&self) -> f64 {

@@ -74,6 +74,7 @@ impl<C: Contact> Solves for StiffPlant<C> {
                 plant: &self.plant,
                 drive: Drive::new(&self.plant, &self.task.input),
                 side: 1.0,
+                limit: BEYOND * self.contact.limit().max(self.y0[2].abs()),
             };
             let from = delivery.y;
             let run = collocate(&mut system, (piece[0], piece[1]), from, &closeness, &mut delivery);
@@ -157,7 +158,12 @@ struct System<'a, C> {
     plant: &'a Plant,
     drive: Drive,
     side: f64,
+    /// The largest |x| of a state that can be.
+    limit: f64,
 }
+
+/// A state that is this much beyond the limit of all motions is not one of a solution.
+const BEYOND: f64 = 1.01;
 
 impl<C: Contact> Kinked<3> for System<'_, C> {
     type Matrix<const B: usize> = Moving<B>;
@@ -199,6 +205,11 @@ impl<C: Contact> Kinked<3> for System<'_, C> {
 
     fn take_side(&mut self, side: f64) {
         self.side = side;
+    }
+
+    #[inline(always)]
+    fn admits(&self, y: &[f64; 3]) -> bool {
+        y[2].abs() <= self.limit
     }
 
     /// The largest real part of an eigenvalue of v and x alone, q being held: where the friction falls with the
