@@ -1,7 +1,7 @@
 //! Plants with LuGre, and with Dahl, by our stiff method: against the independent Radau IIA, against the
 //! Dahl series, and with no slip missed at any tolerance.
 
-use duhem::{Harmonic, Input, MODELS, Parameters, Plant, closed_form::Reference};
+use duhem::{Harmonic, Input, MODELS, Parameters, Plant};
 use integrate::{Failure, Limits, Outcome};
 use simulation::{
     Delivered, DrivenPlant, Ensemble, NotHere, Own, Task, adaptive::ADAPTIVE, anchors::anchors,
