@@ -84,6 +84,8 @@ pub(crate) struct BenchArgs {
 pub(crate) enum Bench {
     /// Time our methods and the libraries on P1 to P6 at equal delivered error.
     Anchors(AnchorsArgs),
+    /// Time many rigs at once, on one thread and on several.
+    Ensemble(EnsembleArgs),
     /// Try the properties of plants with friction on cases drawn at random.
     Properties(PropertiesArgs),
 }
@@ -118,6 +120,25 @@ pub(crate) struct AnchorsArgs {
     /// Run nothing and show a run that was kept: its name or its file.
     #[arg(long, value_name = "RUN", conflicts_with_all = ["problems", "refs", "native", "portable", "quick", "save", "patch"])]
     pub(crate) saved: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct EnsembleArgs {
+    /// A table of friction parameters, f_c,f_s,v_s,sigma_0,sigma_1,sigma_2; drawn if not given.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) parameters: Option<PathBuf>,
+    /// How many runs; of a table, its first ones.
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) runs: u32,
+    /// Threads, beside one.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: u16,
+    /// Build for any processor of the kind.
+    #[arg(long)]
+    pub(crate) portable: bool,
+    /// The rows as JSON, one a line.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

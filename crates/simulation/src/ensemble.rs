@@ -49,7 +49,6 @@ impl Ensemble<'_> {
         integrate::ensemble(self.threads, tasks.len(), Vec::new, |states: &mut Vec<f64>, i| {
             let task = &tasks[i];
             let (_, ready) = best(task)?;
-            states.clear();
             states.resize(task.y0.len() * self.grid.len(), f64::NAN);
             let mut delivered = ready.deliver(self.rtol, &self.limits, self.grid, states);
             let first_lost = states.iter().position(|y| !y.is_finite());

@@ -25,10 +25,10 @@ pub(super) struct Built {
     pub(super) packages: Vec<String>,
 }
 
-/// Builds the program of the workspace in `folder`, for this processor or for any, into `target`.
+/// Builds the bench `name` of the workspace in `folder`, for this processor or for any, into `target`.
 /// `fixed` holds Cargo.lock as it is.
 pub(super) fn build(
-    folder: &Path,
+    (folder, name): (&Path, &str),
     target: &Path,
     native: bool,
     fixed: bool,
@@ -37,7 +37,7 @@ pub(super) fn build(
     output::note(&format!("building the benchmark, optimised and {words}"));
     let mut cargo = Command::new(tool("CARGO", "cargo"));
     cargo
-        .args(["bench", "--quiet", "--no-run", "--package", "simulation", "--bench", "anchors"])
+        .args(["bench", "--quiet", "--no-run", "--package", "simulation", "--bench", name])
         .args(["--message-format", "json-render-diagnostics"])
         .current_dir(folder)
         .env("CARGO_TARGET_DIR", target)
@@ -64,11 +64,11 @@ pub(super) fn build(
         .collect();
     let program = artifacts
         .iter()
-        .filter(|artifact| artifact["target"]["name"] == "anchors")
+        .filter(|artifact| artifact["target"]["name"] == name)
         .find_map(|artifact| artifact["executable"].as_str());
     let program = program.ok_or_else(|| Failure {
         exit: Exit::Bug,
-        error: anyhow!("cargo built no benchmark named anchors"),
+        error: anyhow!("cargo built no benchmark named {name}"),
     })?;
     let id = |artifact: &Value| artifact["package_id"].as_str().map(ToOwned::to_owned);
     let packages = artifacts.iter().filter_map(id).collect();

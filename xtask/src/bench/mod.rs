@@ -2,6 +2,7 @@
 
 mod anchors;
 mod built;
+mod ensemble;
 mod machine;
 mod patch;
 mod properties;
@@ -17,6 +18,7 @@ use std::path::Path;
 pub(crate) fn bench(root: &Path, arguments: &BenchArgs) -> Result<Exit, Failure> {
     match &arguments.what {
         Some(Bench::Properties(arguments)) => Ok(properties::run(arguments)),
+        Some(Bench::Ensemble(arguments)) => ensemble::run(root, arguments),
         Some(Bench::Anchors(arguments)) => anchors::run(root, arguments),
         None => anchors::run(root, &arguments.anchors),
     }

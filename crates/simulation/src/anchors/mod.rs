@@ -5,11 +5,13 @@
 
 mod answer;
 mod contest;
+mod rigs;
 mod row;
 mod timing;
 
 pub use answer::{Answer, AnswerError, answer, table};
 pub use contest::{Contest, Contestant, Verified, contestants, run};
+pub use rigs::{rigs, rigs_of};
 pub use row::{RTOLS, Row, RowControl, SOLVED};
 pub use timing::{Timing, median, time};
 

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 /// The generator splitmix64: the same numbers everywhere and for ever.
 #[derive(Debug, Clone)]
-pub(super) struct Draw(pub u64);
+pub(crate) struct Draw(pub u64);
 
 impl Draw {
     fn next(&mut self) -> u64 {
@@ -21,7 +21,7 @@ impl Draw {
     }
 
     /// Uniform in [low, high).
-    pub(super) fn uniform(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn uniform(&mut self, low: f64, high: f64) -> f64 {
         // The upper 53 bits are a fraction that f64 holds exactly.
         low + (high - low) * ((self.next() >> 11) as f64 / 9_007_199_254_740_992.0)
     }

@@ -11,7 +11,8 @@ use crate::{
     exact::{ExactSolution, SlipPlant},
     plant_reference::solve_located,
 };
-use draw::{Case, Draw, Kind, case};
+pub(crate) use draw::Draw;
+use draw::{Case, Kind, case};
 use duhem::{FrictionModel, LuGre};
 use integrate::Outcome;
 

@@ -79,8 +79,9 @@ impl Contact for LuGre {
         STRIBECK_ZONE * self.v_s
     }
 
+    /// With F_S below F_C the contact holds more in motion than at rest.
     fn limit(&self) -> f64 {
-        self.f_s / self.sigma_0
+        self.f_s.max(self.f_c) / self.sigma_0
     }
 
     fn deflection(&self) -> f64 {
