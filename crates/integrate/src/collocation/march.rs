@@ -257,7 +257,7 @@ impl<T: Kinked<N>, const N: usize, const S: usize, const W: usize, const B: usiz
                 next = trial.h;
             }
             Verdict::Clear => {
-                if self.system.growth(&self.system.jacobian(&end)) * h > GROWN {
+                if self.system.growth(&self.y, &end) * h > GROWN {
                     self.h *= 0.5;
                     return Ok(None);
                 }

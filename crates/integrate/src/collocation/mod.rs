@@ -58,9 +58,9 @@ pub trait Kinked<const N: usize> {
         true
     }
 
-    /// The rate [1/s] at which the fastest instability grows where the Jacobian matrix is `jacobian`; 0 if
-    /// there is none.
-    fn growth(&self, _jacobian: &[[f64; N]; N]) -> f64 {
+    /// The rate [1/s] at which the fastest instability grows at the end of a step between these states; 0
+    /// if there is none.
+    fn growth(&self, _start: &[f64; N], _end: &[f64; N]) -> f64 {
         0.0
     }
 }

@@ -199,7 +199,7 @@ impl Kinked<1> for Growing {
     fn admits(&self, y: &[f64; 1]) -> bool {
         y[0] < 1e6
     }
-    fn growth(&self, _jacobian: &[[f64; 1]; 1]) -> f64 {
+    fn growth(&self, _start: &[f64; 1], _end: &[f64; 1]) -> f64 {
         self.grows
     }
 }

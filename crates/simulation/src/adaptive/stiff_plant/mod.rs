@@ -213,10 +213,13 @@ impl<C: Contact> Kinked<3> for System<'_, C> {
     }
 
     /// The largest real part of an eigenvalue of v and x alone, q being held: where the friction falls with the
-    /// speed a slip grows at this rate.
+    /// speed a slip grows at this rate. It grows only while it becomes faster, and where the friction changes.
     #[inline(always)]
-    fn growth(&self, jacobian: &[[f64; 3]; 3]) -> f64 {
-        let [_, [_, a, b], [_, c, d]] = *jacobian;
+    fn growth(&self, start: &[f64; 3], end: &[f64; 3]) -> f64 {
+        if end[1].abs() <= start[1].abs() || end[1].abs() > self.contact.zone() {
+            return 0.0;
+        }
+        let [_, [_, a, b], [_, c, d]] = self.jacobian(end);
         let (half, det) = (0.5 * (a + d), a * d - b * c);
         let square = half * half - det;
         if square < 0.0 {
