@@ -3,7 +3,7 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use duhem::{Input, MODELS, Parameter, Parameters, Plant};
 use integrate::Limits;
-use simulation::{Task, exact::EXACT};
+use simulation::{Task, adaptive::ADAPTIVE, exact::EXACT};
 use std::{f64::consts::PI, hint::black_box};
 
 /// Three periods of Figure 1.
@@ -46,9 +46,10 @@ fn plant() -> Task {
 }
 
 fn bench(c: &mut Criterion, name: &str, method: &str, task: &Task, points: u32) {
-    let own = EXACT.iter().find(|own| own.name == method).expect("a method of the list");
+    let own = EXACT.iter().chain(ADAPTIVE).find(|own| own.name == method);
+    let own = own.expect("a method of the list");
     let solves = (own.build)(task).expect("a task it holds for");
-    let at = |i: u32| SPAN.1 * (f64::from(i) / f64::from(points));
+    let at = |i: u32| task.span.1 * (f64::from(i) / f64::from(points));
     let grid: Vec<f64> = (1..=points).map(at).collect();
     let mut states = vec![0.0; grid.len() * task.y0.len()];
     c.bench_function(name, |b| {
@@ -77,5 +78,20 @@ fn anchors(c: &mut Criterion) {
     bench(c, "P3", "exact-maxwell-slip", &maxwell_slip(), 600);
 }
 
-criterion_group!(kernels, ends, anchors);
+/// One run of each problem that only an adaptive method solves.
+fn runs(c: &mut Criterion) {
+    for (problem, method) in [
+        ("P2", "lugre-linear"),
+        ("P4", "dahl-series"),
+        ("P5", "radau-located"),
+        ("P6", "radau-located"),
+    ] {
+        let anchors = simulation::anchors::anchors().expect("the anchors");
+        let anchor = anchors.iter().find(|anchor| anchor.problem == problem).expect("an anchor");
+        let points = u32::try_from(anchor.grid.len()).expect("a few thousand") - 1;
+        bench(c, &format!("{problem} at 1e-6"), method, &anchor.task, points);
+    }
+}
+
+criterion_group!(kernels, ends, anchors, runs);
 criterion_main!(kernels);
