@@ -160,7 +160,9 @@ fn names(root: &Path) -> Vec<String> {
     let paths = entries.map(|entry| entry.path());
     let saved = paths.filter(|path| path.extension().is_some_and(|e| e == "json"));
     let stem = |path: PathBuf| path.file_stem().map(|s| s.to_string_lossy().into_owned());
-    let mut names: Vec<String> = saved.filter_map(stem).collect();
+    // The folder is cargo's too, which has a hidden file of that kind.
+    let mut names: Vec<String> =
+        saved.filter_map(stem).filter(|name| !name.starts_with('.')).collect();
     names.sort();
     names
 }

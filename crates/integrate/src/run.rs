@@ -18,6 +18,16 @@ pub struct Work {
     pub rejected: Option<u64>,
 }
 
+impl std::ops::AddAssign<&Work> for Work {
+    /// The work of two runs; rejections are known of both or not at all.
+    fn add_assign(&mut self, other: &Work) {
+        self.evaluations += other.evaluations;
+        self.jacobians += other.jacobians;
+        self.accepted += other.accepted;
+        self.rejected = self.rejected.zip(other.rejected).map(|(a, b)| a + b);
+    }
+}
+
 /// The start and every accepted step, in order; a restart point stands once.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trajectory {

@@ -70,20 +70,13 @@ fn run<const N: usize>(motion: &DrivenPlant, y0: &[f64], rtol: f64) -> Located {
         let span = (piece[0], piece[1]);
         let Integration { work, outcome, .. } =
             radau(&mut Contact { motion }, span, from, &settings, &mut observe);
-        add(&mut located.work, &work);
+        located.work += &work;
         if outcome != Outcome::Solved {
             located.outcome = outcome;
             break;
         }
     }
     located
-}
-
-fn add(total: &mut Work, work: &Work) {
-    total.evaluations += work.evaluations;
-    total.jacobians += work.jacobians;
-    total.accepted += work.accepted;
-    total.rejected = total.rejected.zip(work.rejected).map(|(a, b)| a + b);
 }
 
 /// The plant as our stiff method takes it: its event is the reversal of v.

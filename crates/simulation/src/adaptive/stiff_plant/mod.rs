@@ -78,7 +78,7 @@ impl<C: Contact> Solves for StiffPlant<C> {
             };
             let from = delivery.y;
             let run = collocate(&mut system, (piece[0], piece[1]), from, &closeness, &mut delivery);
-            work = sum(&work, &run.work);
+            work += &run.work;
             left.evaluations = left.evaluations.saturating_sub(run.work.evaluations);
             outcome = run.outcome;
             if outcome != Outcome::Solved {
@@ -120,15 +120,6 @@ fn closeness(rtol: f64, scale: &[f64; 3]) -> Closeness<3> {
     };
     let atol = scale.map(|scale| rtol * scale);
     Closeness { rtol, atol, stages, limits: Limits::default() }
-}
-
-fn sum(a: &Work, b: &Work) -> Work {
-    Work {
-        evaluations: a.evaluations + b.evaluations,
-        jacobians: a.jacobians + b.jacobians,
-        accepted: a.accepted + b.accepted,
-        rejected: a.rejected.zip(b.rejected).map(|(a, b)| a + b),
-    }
 }
 
 /// Writes the states at the times of the grid as the steps pass them.
