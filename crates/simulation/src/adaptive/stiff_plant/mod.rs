@@ -114,7 +114,7 @@ impl<C: Contact> StiffPlant<C> {
 /// tolerance than 1e-4 these only fail more of their iterations. Looser than 2e-3 nothing is gained.
 fn closeness(rtol: f64, scale: &[f64; 3]) -> Closeness<3> {
     let (stages, rtol) = if rtol >= 0.5e-4 {
-        (Stages::Three, 2e-3 * (rtol.min(2e-3) / 1e-3).powf(1.65))
+        (Stages::Three, 3e-3 * (rtol.min(2e-3) / 1e-3).powf(1.8))
     } else {
         (Stages::Seven, (5.0 * rtol).min(1e-4))
     };
