@@ -4,7 +4,7 @@ use crate::{
     exit::{Exit, Failure},
     output, root,
 };
-use experiment::{Plan, corners_name, fixed_step};
+use experiment::{Plan, control_name, corners_name};
 use report::FIGURES;
 use serde_json::json;
 use std::path::Path;
@@ -42,14 +42,16 @@ pub(crate) fn show(root: &Path, name: &str, as_json: bool) -> Result<Exit, Failu
     let names = root::chosen(root, &[name.to_owned()])?;
     let plan = Plan::read(&root::toml(root, &names[0]), &kinds())?;
     let studies = plan.studies.iter().map(|study| {
-        let (fixed, adaptive): (Vec<_>, Vec<_>) = study.solvers.iter().partition(|s| fixed_step(s));
-        let names = |list: Vec<&&integrate::Solver>| list.iter().map(|s| s.name).collect::<Vec<_>>();
+        let names = |control: &str| {
+            let own = study.solvers.iter().filter(|s| control_name(**s) == control);
+            own.map(simulation::Method::name).collect::<Vec<_>>()
+        };
         json!({
             "name": study.name, "model": study.model_text, "input": study.input_text,
             "points": study.points.iter().map(|p| &p.label).collect::<Vec<_>>(),
             "span_s": study.span, "budget": study.budget, "reference": study.reference.as_ref().map(|r| r.name),
-            "fixed_step": names(fixed), "steps_per_period": study.steps,
-            "adaptive": names(adaptive), "rtol": study.rtol,
+            "exact": names("none"), "fixed_step": names("step"), "steps_per_period": study.steps,
+            "adaptive": names("rtol"), "rtol": study.rtol,
             "corners": study.corners.iter().map(|c| corners_name(*c)).collect::<Vec<_>>(),
         })
     });

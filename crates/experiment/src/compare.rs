@@ -1,7 +1,7 @@
 //! A run against the exact answer, in several norms.
 //!
-//! Errors are taken at the solver's own accepted steps, with no interpolation of ours in between, and are
-//! relative to the largest response of the exact answer: the force under an imposed motion, the
+//! Errors are taken at the solver's own accepted steps, with no interpolation of ours in between, or at the
+//! times that a method of our own delivers, which are many and none of its choosing; and are relative to the largest response of the exact answer: the force under an imposed motion, the
 //! displacement of a plant.
 
 use crate::plan::{Case, Plan, control_name, corners_name};
@@ -74,8 +74,8 @@ pub(crate) fn record(
 /// A case's row with its names and nothing measured.
 pub(crate) fn named(case: &Case) -> CaseRow {
     CaseRow {
-        solver: case.solver.name.to_owned(),
-        library: case.solver.library.to_owned(),
+        solver: case.solver.name().to_owned(),
+        library: case.solver.library().to_owned(),
         control: control_name(case.solver).to_owned(),
         value: case.value,
         corners: corners_name(case.corners).to_owned(),
@@ -109,7 +109,7 @@ fn errors(
 }
 
 /// The kinks of the exact solution: corners of the input, and where a force arrives at its limit.
-fn kinks(motion: &dyn Motion, reference: &dyn Reference) -> Vec<f64> {
+pub(crate) fn kinks(motion: &dyn Motion, reference: &dyn Reference) -> Vec<f64> {
     let mut kinks = [motion.corners().to_vec(), reference.kinks()].concat();
     kinks.sort_by(f64::total_cmp);
     kinks

@@ -1,7 +1,7 @@
 //! The curves of figures: the exact answer's loops, and the steps that solvers took.
 
 use crate::{
-    plan::{Plan, Point, Study, fixed_step, solver_names},
+    plan::{Plan, Point, Study, control_name, solver_names},
     quantities::View,
     run::Finished,
     solved::solved,
@@ -13,6 +13,7 @@ use duhem::{
 };
 use integrate::Corners;
 use record::{CurveRow, PanelRow};
+use simulation::Method;
 
 /// Points drawn on each arc between two corners.
 const PER_ARC: u32 = 100;
@@ -200,7 +201,7 @@ fn of_solver(
     let solver = integrate::solver(&run.solver).ok_or("an unknown solver")?;
     let corners = if run.corners == "restart" { Corners::Restart } else { Corners::Ignore };
     let found = solved(study, point, (solver, run.value), corners)?;
-    let mut label = if fixed_step(solver) {
+    let mut label = if control_name(Method::Solver(solver)) == "step" {
         format!("{}, {} steps", run.solver, run.value)
     } else {
         format!("{}, {:e}", run.solver, run.value)
@@ -286,7 +287,7 @@ fn steps(
         }
         let label = &study.points[case.point].label;
         let wanted = points.iter().any(|p| p.label == *label)
-            && (solvers.is_empty() || solvers.contains(&case.solver.name));
+            && (solvers.is_empty() || solvers.contains(&case.solver.name()));
         if let (true, Some(history)) = (wanted, &finished.record.history) {
             let xy = history.t.iter().copied().zip(history.step.iter().copied()).collect();
             series.push((pretty(label, study), xy));

@@ -13,6 +13,7 @@ mod drift;
 mod error;
 mod judge;
 mod orders;
+mod own;
 mod plan;
 pub mod quantities;
 mod run;
@@ -26,7 +27,7 @@ pub use error::ExperimentError;
 pub use judge::four_digits;
 pub use plan::{
     Answers, Case, Claim, Decision, Exact, Irreproducible, Measure, Plan, Point, Study, Subject,
-    corners_name, fixed_step,
+    control_name, corners_name,
 };
 pub use run::{Finished, Options, Progress, WATCHDOG, Why, run};
 pub use summary::summary;

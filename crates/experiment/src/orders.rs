@@ -1,6 +1,6 @@
 //! Observed orders: the slope of the error over a solver's controls.
 
-use crate::plan::{Plan, corners_name};
+use crate::plan::{Plan, control_name, corners_name};
 use integrate::{Order, solver};
 use record::{CaseRow, OrderRow};
 use std::collections::BTreeMap;
@@ -17,9 +17,13 @@ type Group = (usize, usize, usize, &'static str);
 fn groups(plan: &Plan) -> BTreeMap<Group, Vec<usize>> {
     let mut groups: BTreeMap<Group, Vec<usize>> = BTreeMap::new();
     for (i, case) in plan.cases.iter().enumerate() {
+        // What has no control has no slope against it.
+        if control_name(case.solver) == "none" {
+            continue;
+        }
         let solvers = &plan.studies[case.study].solvers;
         let place =
-            solvers.iter().position(|s| s.name == case.solver.name).unwrap_or(solvers.len());
+            solvers.iter().position(|s| s.name() == case.solver.name()).unwrap_or(solvers.len());
         groups
             .entry((case.study, case.point, place, corners_name(case.corners)))
             .or_default()

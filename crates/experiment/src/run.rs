@@ -1,12 +1,13 @@
 //! Every case run or found in the store, in parallel, none able to stop the others.
 
 use crate::{
-    ExperimentError, compare,
-    plan::{Case, Plan, Study, corners_name, fixed_step},
+    ExperimentError, compare, own,
+    plan::{Case, Plan, Study, control, corners_name},
 };
-use integrate::{Control, Limits};
+use integrate::Limits;
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 use record::{CaseRecord, CaseRow, Found, Key, Store};
+use simulation::Method;
 use std::{
     sync::{
         Arc,
@@ -160,7 +161,7 @@ fn key(plan: &Plan, case: &Case) -> Key {
         &format!("{:?}", study.input),
         &format!("{:?} {:?} {:?}", study.initial, study.span, study.period),
         reference,
-        case.solver.name,
+        case.solver.name(),
         &format!("{:?} {} {}", case.value, corners_name(case.corners), case.history),
         &study.budget.to_string(),
     ])
@@ -208,7 +209,7 @@ fn watched(
             let words = words.unwrap_or_else(|| "no words".to_owned());
             Err(ExperimentError::Bug(format!(
                 "case {index} ({}) panicked: {words}",
-                case.solver.name
+                case.solver.name()
             )))
         }
     }
@@ -227,14 +228,18 @@ fn compute(plan: &Plan, case: &Case) -> Result<CaseRecord, String> {
     let study = &plan.studies[case.study];
     let exact = study.exact(case.point)?;
     let motion = study.motion(case.point)?;
-    let problem = motion.problem(study.initial.clone());
-    let control = if fixed_step(case.solver) {
-        Control::Step(study.period / case.value)
-    } else {
-        Control::Tolerance { rtol: case.value }
+    let run = match case.solver {
+        Method::Solver(solver) => {
+            let problem = motion.problem(study.initial.clone());
+            let limits = Limits { evaluations: study.budget };
+            let control = control(study, solver, case.value);
+            integrate::solve(solver, &problem, &control, case.corners, &limits)
+        }
+        Method::Exact(method) | Method::Adaptive(method) => {
+            let kinks = compare::kinks(motion.as_ref(), exact.reference());
+            own::run(study, case, method, &kinks)?
+        }
     };
-    let limits = Limits { evaluations: study.budget };
-    let run = integrate::solve(case.solver, &problem, &control, case.corners, &limits);
     Ok(compare::record(plan, case, &run, motion.as_ref(), exact.reference()))
 }
 

@@ -1,8 +1,8 @@
 //! One run of a solver on a study, outside the table of cases: for a figure or a check that shows what a
 //! solver does, and not how far it is off.
 
-use crate::plan::{Point, Study, fixed_step};
-use integrate::{Control, Corners, Limits, Run, Solver};
+use crate::plan::{Point, Study, control};
+use integrate::{Corners, Limits, Run, Solver};
 use simulation::{Motion, PrescribedMotion};
 
 /// The displacements [m], velocities [m/s] and forces [N] at the accepted steps, and the run itself.
@@ -18,17 +18,13 @@ pub(crate) struct Solved {
 pub(crate) fn solved(
     study: &Study,
     point: &Point,
-    (solver, value): (&Solver, f64),
+    (solver, value): (&'static Solver, f64),
     corners: Corners,
 ) -> Result<Solved, String> {
     let motion =
         PrescribedMotion::new(study.model_at(point)?, study.input.clone(), (0.0, study.span));
     let problem = motion.problem(study.initial.clone());
-    let control = if fixed_step(solver) {
-        Control::Step(study.period / value)
-    } else {
-        Control::Tolerance { rtol: value }
-    };
+    let control = control(study, solver, value);
     let limits = Limits { evaluations: study.budget };
     let run = integrate::solve(solver, &problem, &control, corners, &limits);
     let (t, y, n) = (&run.trajectory.t, &run.trajectory.y, run.trajectory.n);

@@ -52,9 +52,9 @@ table! {
         solver: String = "solver",
         /// `own`, `ode_solvers` or `diffsol`.
         library: String = "library",
-        /// `step` or `rtol`.
+        /// `step`, `rtol`, or `none` for an exact method.
         control: String = "control",
-        /// Steps per period, or the relative tolerance.
+        /// Steps per period, or the relative tolerance; 0 without a control.
         value: f64 = "value",
         /// `restart` or `ignore`.
         corners: String = "corners",
@@ -77,7 +77,7 @@ table! {
         /// The slope of the largest error from the next coarser control to this one, as in [`OrderRow`];
         /// none for the coarsest, at round-off, and next to a failure.
         order: Option<f64> = "order",
-        /// Calls of the right-hand side.
+        /// Calls of the right-hand side; of an exact method the updates of its closed form.
         evaluations: u64 = "evaluations",
         /// Calls of the Jacobian.
         jacobians: u64 = "jacobians",

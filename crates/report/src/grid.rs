@@ -124,7 +124,9 @@ pub(crate) fn orders(summary: &Summary, study: &str) -> Option<Grid> {
             let sign = if rough { "~" } else { "" };
             format!("{sign}{}", number::maybe(found.and_then(|r| r.order), 2))
         };
-        let declared = row.declared.map_or_else(|| "variable".to_owned(), |d| d.to_string());
+        let ours = row.library == "own" && against == "rtol";
+        let otherwise = if ours { NONE } else { "variable" };
+        let declared = row.declared.map_or_else(|| otherwise.to_owned(), |d| d.to_string());
         let mut cells = vec![solver.to_owned(), declared, against.to_owned()];
         cells.extend(
             points.iter().map(|p| format!("{}\n{}", order(p, "restart"), order(p, "ignore"))),
@@ -198,6 +200,7 @@ fn case_row(case: &CaseRow) -> Vec<String> {
     let control = match case.control.as_str() {
         "step" => format!("{} steps", number::short(case.value)),
         "rtol" => format!("rtol {}", number::short(case.value)),
+        "none" => "exact".to_owned(),
         other => format!("{other} {}", number::short(case.value)),
     };
     let mut row = vec![case.solver.clone(), control, case.corners.clone(), status(case)];

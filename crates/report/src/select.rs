@@ -6,6 +6,17 @@ use record::{CaseRow, FigureRow, OrderRow, Summary};
 /// The status of a case that came to its end.
 pub(crate) const SOLVED: &str = "solved";
 
+/// Whether it is a run of an exact method: nothing controls it.
+pub(crate) fn is_exact(case: &CaseRow) -> bool {
+    case.control == "none"
+}
+
+/// Whether it is a run of a method of our own that was given the task, and knew the corners. Our own
+/// solvers of a right-hand side all take fixed steps.
+pub(crate) fn is_ours(case: &CaseRow) -> bool {
+    is_exact(case) || (case.library == "own" && case.control == "rtol")
+}
+
 /// The cases of one figure.
 #[derive(Debug)]
 pub(crate) struct Selection<'a> {
@@ -52,12 +63,25 @@ pub(crate) fn select<'a>(
     Selection { cases, orders, points, response }
 }
 
-impl Selection<'_> {
-    /// The corner treatments that occur: `restart` first.
-    pub(crate) fn corners(&self) -> Vec<&str> {
-        let mut corners = distinct(self.cases.iter().map(|case| case.corners.as_str()));
+impl<'a> Selection<'a> {
+    /// The corner treatments that occur: `restart` first. What knows its corners counts only if alone.
+    pub(crate) fn corners(&self) -> Vec<&'a str> {
+        let of = |ours: bool| {
+            let cases = self.cases.iter().filter(move |case| ours || !is_ours(case));
+            distinct(cases.map(|case| case.corners.as_str()))
+        };
+        let told = of(false);
+        let mut corners = if told.is_empty() { of(true) } else { told };
         corners.sort_by_key(|name| std::cmp::Reverse(*name));
         corners
+    }
+
+    /// Whether a panel of this corner treatment shows the case: what knows its corners stands in the first.
+    pub(crate) fn shows(&self, case: &CaseRow, corners: &str) -> bool {
+        if is_ours(case) {
+            return self.corners().first().is_some_and(|first| *first == corners);
+        }
+        case.corners == corners
     }
 
     /// The observed order against `steps` or `rtol`.

@@ -171,10 +171,10 @@ fn text_can_be_read_on_white_and_on_dark_and_lines_can_be_seen() {
         check(theme, &texts, ["ground", "band"], 4.5);
     }
     for theme in &figures {
-        check(theme, &["i", "m", "t1", "t2", "t3", "t4"], ["g", "b"], 4.5);
+        check(theme, &["i", "m", "t1", "t2", "t3", "t4", "t5"], ["g", "b"], 4.5);
         check(theme, &["i"], ["h0", "h1"], 4.5);
         check(theme, &["i"], ["h2", "h3"], 4.5);
-        check(theme, &["c1", "c2", "c3", "c4", "a"], ["g", "g"], 3.0);
+        check(theme, &["c1", "c2", "c3", "c4", "c5", "a"], ["g", "g"], 3.0);
     }
 }
 

@@ -1,7 +1,7 @@
 //! The experiments of this repository, run once into a store that all tests share.
 
 use experiment::{Options, Plan, run, summary};
-use record::{Store, Summary};
+use record::{CaseRow, Store, Summary};
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},
@@ -43,15 +43,34 @@ pub(crate) fn named(file: &str) -> Summary {
     tables(paths.iter().find(|path| path.ends_with(file)).unwrap_or_else(|| panic!("no {file}")))
 }
 
+/// Whether a row is one of our own methods that are given the task.
+pub(crate) fn ours(row: &CaseRow) -> bool {
+    row.control == "none" || (row.library == "own" && row.control == "rtol")
+}
+
 /// The fewest evaluations, Jacobians included, with which each solver reaches an error at a point of a study,
 /// with restart.
-pub(crate) fn fewest<'a>(
+pub(crate) fn fewest<'a>(tables: &'a Summary, at: (&str, &str), error: f64) -> Vec<(u64, &'a str)> {
+    among(tables, at, error, |row| !ours(row))
+}
+
+/// The same of our own methods that are given the task.
+pub(crate) fn fewest_of_ours<'a>(
+    tables: &'a Summary,
+    at: (&str, &str),
+    error: f64,
+) -> Vec<(u64, &'a str)> {
+    among(tables, at, error, ours)
+}
+
+fn among<'a>(
     tables: &'a Summary,
     (study, point): (&str, &str),
     error: f64,
+    belongs: fn(&CaseRow) -> bool,
 ) -> Vec<(u64, &'a str)> {
     let mut found: BTreeMap<&str, u64> = BTreeMap::new();
-    for row in &tables.cases {
+    for row in tables.cases.iter().filter(|row| belongs(row)) {
         let names =
             (row.study.as_str(), row.point.as_str(), row.corners.as_str(), row.status.as_str());
         if names == (study, point, "restart", "solved") && row.error_max.is_some_and(|e| e <= error)

@@ -55,7 +55,7 @@ pub(super) fn check(
                 return Err(Complaint::new(key("value"), format!("{value:e}"), expected));
             }
         }
-        super::study::solvers(&figure.solvers).map_err(|c| c.under(&format!("figure[{i}]")))?;
+        super::methods::named(&figure.solvers).map_err(|c| c.under(&format!("figure[{i}]")))?;
         for (p, panel) in figure.panel.iter().enumerate() {
             let key = |k: &str| format!("figure[{i}].panel[{p}].{k}");
             if let Some(name) = &panel.study {

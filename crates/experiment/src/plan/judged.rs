@@ -1,13 +1,14 @@
 //! What is measured and judged, as checked.
 
-use super::{Point, Study, input, study};
+use super::{Point, Study, input, methods, study};
 use crate::{
     checks::{CHECKS, Check},
     error::{Complaint, one_of},
     quantities::{QUANTITIES, Quantity},
     spec::{ClaimSpec, IrreproducibleSpec, PrintedSpec, Spec},
 };
-use integrate::{Corners, Solver};
+use integrate::Corners;
+use simulation::Method;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What a quantity or a check is taken of: a study at some points of its sweep.
@@ -77,7 +78,7 @@ pub struct Irreproducible {
     pub any_status: bool,
     /// The studies' indices, each with the points meant.
     places: Vec<(usize, BTreeSet<String>)>,
-    solvers: Vec<&'static Solver>,
+    solvers: Vec<Method>,
     corners: Vec<Corners>,
 }
 
@@ -86,11 +87,11 @@ impl Irreproducible {
     pub fn covers(
         &self,
         (study, point): (usize, &Point),
-        solver: &Solver,
+        solver: Method,
         corners: Corners,
     ) -> bool {
         self.places.iter().any(|(s, points)| *s == study && points.contains(&point.label))
-            && (self.solvers.is_empty() || self.solvers.iter().any(|s| s.name == solver.name))
+            && (self.solvers.is_empty() || self.solvers.iter().any(|s| s.name() == solver.name()))
             && (self.corners.is_empty() || self.corners.contains(&corners))
     }
 }
@@ -337,7 +338,7 @@ fn irreproducible(
         why: spec.why.trim().to_owned(),
         any_status: spec.any_status,
         places,
-        solvers: study::solvers(&spec.solvers)?,
+        solvers: methods::named(&spec.solvers)?,
         corners: study::corners(&spec.corners)?,
     })
 }

@@ -4,12 +4,14 @@ mod answer;
 mod figures;
 mod input;
 mod judged;
+mod methods;
 mod panel;
 mod study;
 mod sweep;
 
 pub use answer::{Answers, Exact};
 pub use judged::{Claim, Decision, Irreproducible, Measure, Subject};
+pub use methods::control_name;
 pub use study::Study;
 pub use sweep::Point;
 pub(crate) use sweep::angular;
@@ -19,8 +21,9 @@ use crate::{
     error::Complaint,
     spec::{FigureSpec, Spec, Written},
 };
-use integrate::{Corners, Solver};
+use integrate::{Control, Corners, Solver};
 use record::RecordError;
+use simulation::Method;
 use std::{collections::BTreeSet, fs, path::Path};
 
 /// The most evaluations a case may use if the experiment does not say otherwise.
@@ -62,24 +65,22 @@ pub struct Case {
     pub study: usize,
     /// The point's index in its sweep.
     pub point: usize,
-    /// The solver.
-    pub solver: &'static Solver,
-    /// Steps per period, or the relative tolerance.
+    /// The solver, or the method of our own.
+    pub solver: Method,
+    /// Steps per period, or the relative tolerance; 0 for an exact method.
     pub value: f64,
-    /// Whether the solver restarts at corners.
+    /// Whether the solver restarts at corners, as a method of our own does.
     pub corners: Corners,
     /// Whether its steps are kept for a figure.
     pub history: bool,
 }
 
-/// Whether a solver takes a fixed step.
-pub fn fixed_step(solver: &Solver) -> bool {
-    matches!(solver.order, integrate::Order::Fixed(_))
-}
-
-/// What a solver's steps are controlled by: `step` or `rtol`.
-pub(crate) fn control_name(solver: &Solver) -> &'static str {
-    if fixed_step(solver) { "step" } else { "rtol" }
+/// The steps of a solver in a study: so many a period, or at that relative tolerance.
+pub(crate) fn control(study: &Study, solver: &'static Solver, value: f64) -> Control {
+    match control_name(Method::Solver(solver)) {
+        "step" => Control::Step(study.period / value),
+        _ => Control::Tolerance { rtol: value },
+    }
 }
 
 /// `restart` or `ignore`.
@@ -246,10 +247,10 @@ fn cases(studies: &[Study]) -> Vec<Case> {
     let mut cases = Vec::new();
     for (s, study) in studies.iter().enumerate() {
         for point in 0..study.points.len() {
-            for solver in &study.solvers {
-                let values = if fixed_step(solver) { &study.steps } else { &study.rtol };
-                for value in values {
-                    for corners in &study.corners {
+            let takes = |solver: &Method| study.holds(point, *solver).is_ok();
+            for solver in study.solvers.iter().copied().filter(takes) {
+                for value in study.values(solver) {
+                    for corners in study.corners_of(solver) {
                         let history = study.keeps(solver, *value, *corners);
                         let (value, corners) = (*value, *corners);
                         cases.push(Case { study: s, point, solver, value, corners, history });
@@ -263,5 +264,5 @@ fn cases(studies: &[Study]) -> Vec<Case> {
 
 /// The names that these names and sets mean; none for those that a plan has already refused.
 pub(crate) fn solver_names(names: &[String]) -> Vec<&'static str> {
-    study::solvers(names).unwrap_or_default().iter().map(|s| s.name).collect()
+    methods::named(names).unwrap_or_default().iter().map(Method::name).collect()
 }

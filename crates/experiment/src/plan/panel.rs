@@ -1,10 +1,11 @@
 //! What a panel draws besides the exact answer of its own study.
 
-use super::{Study, fixed_step, study};
+use super::{Study, control_name, methods, study};
 use crate::{
     error::{Complaint, one_of},
     spec::{FigureSpec, PanelSpec},
 };
+use simulation::Method;
 
 /// Further studies, runs of solvers and the steady force are checked before anything runs.
 pub(super) fn check(
@@ -27,12 +28,13 @@ pub(super) fn check(
     }
     for (i, run) in panel.runs.iter().enumerate() {
         let under = |c: Complaint| c.under(&format!("runs[{i}]"));
-        let solvers = study::solvers(std::slice::from_ref(&run.solver)).map_err(under)?;
+        let solvers = methods::named(std::slice::from_ref(&run.solver)).map_err(under)?;
         study::corners(std::slice::from_ref(&run.corners)).map_err(under)?;
-        let [solver] = solvers[..] else {
-            return Err(under(Complaint::new("solver", &run.solver, "one solver, no set")));
+        let [solver @ Method::Solver(_)] = solvers[..] else {
+            let expected = "one solver of a right-hand side, no set";
+            return Err(under(Complaint::new("solver", &run.solver, expected)));
         };
-        let (range, expected) = if fixed_step(solver) {
+        let (range, expected) = if control_name(solver) == "step" {
             (1.0..=1e6, "steps per period, from 1 to 1e6")
         } else {
             (1e-14..=0.5, "a relative tolerance, from 1e-14 to 0.5")

@@ -2,7 +2,7 @@
 
 use super::{
     answer::{Answers, Exact},
-    corners_name, fixed_step, input,
+    control_name, corners_name, input,
     sweep::{self, Point},
 };
 use crate::{
@@ -10,8 +10,8 @@ use crate::{
     spec::{HistorySpec, StudySpec},
 };
 use duhem::{FrictionModel, Input, ModelEntry, PlantEntry};
-use integrate::{Corners, SOLVERS, Solver};
-use simulation::{DrivenPlant, Motion, PrescribedMotion};
+use integrate::Corners;
+use simulation::{DrivenPlant, Method, Motion, PrescribedMotion, Task};
 use std::collections::BTreeMap;
 
 /// One study as checked: model × input × solvers × controls.
@@ -43,8 +43,8 @@ pub struct Study {
     pub span: f64,
     /// The state at t = 0: the model's, after displacement and velocity if there is a plant.
     pub initial: Vec<f64>,
-    /// The solvers.
-    pub solvers: Vec<&'static Solver>,
+    /// The solvers, and the methods of our own that take one of the points.
+    pub solvers: Vec<Method>,
     /// Steps per period, for the methods of fixed step.
     pub steps: Vec<f64>,
     /// Relative tolerances, for the adaptive methods.
@@ -82,7 +82,7 @@ impl Study {
             let expected = format!("`{}`, the study's model", model.name);
             return Err(Complaint::new("reference", format!("`{name}`"), expected));
         }
-        let study = Self {
+        let mut study = Self {
             name: spec.name.clone(),
             title: spec.title.clone(),
             label: if spec.label.is_empty() { model.name } else { &spec.label }.to_owned(),
@@ -96,7 +96,7 @@ impl Study {
             period,
             span,
             initial,
-            solvers: solvers(&spec.solvers)?,
+            solvers: Vec::new(),
             steps: steps(&spec.steps, span / period)?,
             rtol: tolerances(&spec.rtol)?,
             corners: corners(&spec.corners)?,
@@ -104,6 +104,7 @@ impl Study {
             budget,
             history: spec.history.clone(),
         };
+        study.solvers = study.taken(&spec.solvers)?;
         study.complete()?;
         study.references_exist()?;
         Ok(study)
@@ -111,18 +112,19 @@ impl Study {
 
     /// Solvers without controls would silently run nothing.
     fn complete(&self) -> Result<(), Complaint> {
-        let needs = |fixed: bool| self.solvers.iter().any(|s| fixed_step(s) == fixed);
-        if needs(true) && self.steps.is_empty() {
+        let needs = |control: &str| self.solvers.iter().any(|s| control_name(*s) == control);
+        if needs("step") && self.steps.is_empty() {
             return Err(Complaint::new(
                 "steps",
                 "none",
                 "steps per period for the fixed-step solvers",
             ));
         }
-        if needs(false) && self.rtol.is_empty() {
+        if needs("rtol") && self.rtol.is_empty() {
             return Err(Complaint::new("rtol", "none", "tolerances for the adaptive solvers"));
         }
-        if !self.solvers.is_empty() && self.corners.is_empty() {
+        let told = self.solvers.iter().any(|s| matches!(s, Method::Solver(_)));
+        if told && self.corners.is_empty() {
             return Err(Complaint::new("corners", "none", "\"restart\", \"ignore\" or both"));
         }
         if !self.solvers.is_empty() && self.reference.is_none() {
@@ -133,7 +135,9 @@ impl Study {
             ));
         }
         for (i, wanted) in self.history.iter().enumerate() {
-            let solver = self.solvers.iter().any(|s| s.name == wanted.solver && !fixed_step(s));
+            let adaptive =
+                |s: &Method| matches!(s, Method::Solver(_)) && control_name(*s) == "rtol";
+            let solver = self.solvers.iter().any(|s| s.name() == wanted.solver && adaptive(s));
             let corners = self.corners.iter().any(|c| corners_name(*c) == wanted.corners);
             if !(solver && corners && self.rtol.contains(&wanted.rtol)) {
                 let found =
@@ -172,6 +176,36 @@ impl Study {
         Ok(Box::new(PrescribedMotion::new(model, input, (0.0, self.span))))
     }
 
+    /// The study at a point of its sweep, as what a method of our own is built from.
+    pub(crate) fn task(&self, point: usize) -> Result<Task, String> {
+        let point = self.points.get(point).ok_or("no such point of the sweep")?;
+        Ok(Task {
+            model: self.model,
+            parameters: point.parameters.clone(),
+            plant: point.plant,
+            input: self.input.clone(),
+            y0: self.initial.clone(),
+            span: (0.0, self.span),
+        })
+    }
+
+    /// The values of a method's control; an exact one has none, and is run once.
+    pub(super) fn values(&self, method: Method) -> &[f64] {
+        match control_name(method) {
+            "step" => &self.steps,
+            "rtol" => &self.rtol,
+            _ => &[0.0],
+        }
+    }
+
+    /// What a method does at corners; one of our own knows them from its task.
+    pub(super) fn corners_of(&self, method: Method) -> &[Corners] {
+        match method {
+            Method::Solver(_) => &self.corners,
+            Method::Exact(_) | Method::Adaptive(_) => &[Corners::Restart],
+        }
+    }
+
     /// The plant with its model at a point.
     pub(crate) fn driven(&self, point: usize) -> Result<DrivenPlant, String> {
         let point = &self.points[point];
@@ -189,9 +223,9 @@ impl Study {
     }
 
     /// Whether the steps of this case are kept.
-    pub(super) fn keeps(&self, solver: &Solver, value: f64, corners: Corners) -> bool {
+    pub(super) fn keeps(&self, solver: Method, value: f64, corners: Corners) -> bool {
         let fits = |h: &HistorySpec| {
-            h.solver == solver.name && h.rtol == value && h.corners == corners_name(corners)
+            h.solver == solver.name() && h.rtol == value && h.corners == corners_name(corners)
         };
         self.history.iter().any(fits)
     }
@@ -219,27 +253,6 @@ impl Study {
         };
         Ok(self.points.iter().filter(fits).collect())
     }
-}
-
-/// The solvers of these names and sets, each once, in the order of the list.
-pub(crate) fn solvers(names: &[String]) -> Result<Vec<&'static Solver>, Complaint> {
-    let mut found: Vec<&'static Solver> = Vec::new();
-    for name in names {
-        let members = if name.starts_with('@') {
-            integrate::set(name)
-        } else {
-            integrate::solver(name).map(|solver| vec![solver])
-        };
-        let known = SOLVERS.iter().map(|s| s.name).chain(integrate::SETS.iter().copied());
-        let members = members
-            .ok_or_else(|| Complaint::new("solvers", format!("`{name}`"), one_of(name, known)))?;
-        for solver in members {
-            if !found.iter().any(|s| s.name == solver.name) {
-                found.push(solver);
-            }
-        }
-    }
-    Ok(found)
 }
 
 /// What steps are counted over, and the end of the time span.

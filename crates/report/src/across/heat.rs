@@ -3,7 +3,7 @@
 use super::{NAME, Problem};
 use crate::figures::{Datum, Drawing};
 use crate::plot::{Canvas, Fault, Ink, Panel, Side, fit, sketch, text_width};
-use crate::select::{SOLVED, distinct};
+use crate::select::{SOLVED, is_exact, is_ours};
 use crate::{ReportError, number};
 use record::CaseRow;
 
@@ -27,6 +27,12 @@ struct Row<'a> {
     problems: Vec<&'a Problem<'a>>,
 }
 
+/// A column: a solver, or several methods of ours of which at most a few hold on any problem.
+struct Column<'a> {
+    name: &'a str,
+    members: Vec<&'a str>,
+}
+
 /// A cell.
 struct Cell<'a> {
     /// The run shown: of several the worst.
@@ -37,8 +43,8 @@ struct Cell<'a> {
 
 struct Map<'a> {
     rows: Vec<Row<'a>>,
-    /// The control, and the solvers that are run with it.
-    groups: Vec<(&'a str, Vec<&'a str>)>,
+    /// The title of a group of columns, and its columns.
+    groups: Vec<(&'static str, Vec<Column<'a>>)>,
     titles: &'a [&'a str],
     left: f64,
     head: f64,
@@ -51,18 +57,10 @@ pub(super) fn draw<'a>(
     titles: &'a [&'a str],
 ) -> Result<Drawing, ReportError> {
     let rows = rows(problems);
-    let control = |solver: &str| {
-        problems.iter().flat_map(|p| p.of(solver)).map(|case| case.control.as_str()).next()
-    };
-    let mut controls = distinct(problems.iter().flat_map(|p| &p.cases).map(|c| c.control.as_str()));
-    controls.sort_by_key(|name| std::cmp::Reverse(*name));
-    let group = |name: &'a str| {
-        let own: Vec<&str> = solvers.iter().copied().filter(|s| control(s) == Some(name)).collect();
-        (!own.is_empty()).then_some((name, own))
-    };
-    let groups: Vec<_> = controls.into_iter().filter_map(group).collect();
+    let groups = groups(problems, solvers);
     let widest = rows.iter().map(|row| text_width(&row.name)).fold(60.0, f64::max);
-    let tallest = solvers.iter().map(|name| text_width(name)).fold(40.0, f64::max);
+    let columns = groups.iter().flat_map(|(_, columns)| columns);
+    let tallest = columns.map(|column| text_width(column.name)).fold(40.0, f64::max);
     let head = tallest.min(NAMES.1) + 78.0;
     let map = Map { rows, groups, titles, left: widest.min(NAMES.0) + 12.0, head };
     let (width, height) = (map.right().max(560.0), map.bottom() + 8.0);
@@ -81,6 +79,30 @@ pub(super) fn draw<'a>(
         x: "control value".to_owned(),
         y: "largest error, relative".to_owned(),
     })
+}
+
+/// The solvers by what controls them, and behind them what is given the task.
+fn groups<'a>(problems: &[Problem], solvers: &[&'a str]) -> Vec<(&'static str, Vec<Column<'a>>)> {
+    let of = |fits: &dyn Fn(&CaseRow) -> bool| {
+        let first = |s: &&&str| problems.iter().flat_map(|p| p.of(s)).next().is_some_and(fits);
+        solvers.iter().filter(first).copied().collect::<Vec<&str>>()
+    };
+    let each = |all: Vec<&'a str>| -> Vec<Column<'a>> {
+        all.into_iter().map(|name| Column { name, members: vec![name] }).collect()
+    };
+    let whole =
+        |name, members: Vec<&'a str>| (!members.is_empty()).then_some(Column { name, members });
+    let exact = of(&|case| is_exact(case));
+    let adaptive = of(&|case| is_ours(case) && !is_exact(case));
+    let mut ours: Vec<Column> = whole("exact", exact).into_iter().collect();
+    ours.extend(each(adaptive));
+    let mut groups: Vec<(&str, Vec<Column>)> = vec![
+        ("finest step", each(of(&|case| case.control == "step"))),
+        ("rtol next to 10⁻⁶", each(of(&|case| case.control == "rtol" && !is_ours(case)))),
+        ("ours", ours),
+    ];
+    groups.retain(|(_, columns)| !columns.is_empty());
+    groups
 }
 
 /// One row for each problem, or for each study if the problems are too many.
@@ -129,9 +151,12 @@ fn severity(case: &CaseRow) -> f64 {
 }
 
 impl<'a> Row<'a> {
-    /// What the map shows of a solver here, if it was run.
-    fn cell(&'a self, solver: &'a str) -> Option<Cell<'a>> {
-        let runs = self.problems.iter().filter_map(|p| Some((p, shown(p, solver)?)));
+    /// What the map shows of a column here, if one of its members was run.
+    fn cell(&'a self, column: &'a Column<'a>) -> Option<Cell<'a>> {
+        let of = |p: &'a &'a Problem<'a>| {
+            column.members.iter().filter_map(move |solver| Some((p, shown(p, solver)?)))
+        };
+        let runs = self.problems.iter().flat_map(of);
         let silent = runs.clone().any(|(problem, case)| problem.silence(case).is_some());
         let worst = runs.max_by(|a, b| severity(a.1).total_cmp(&severity(b.1)));
         worst.map(|(_, case)| Cell { case, silent })
@@ -139,13 +164,13 @@ impl<'a> Row<'a> {
 }
 
 impl<'a> Map<'a> {
-    /// The left edge of every solver's column.
-    fn columns(&self) -> Vec<(&'a str, f64)> {
+    /// Every column with its left edge.
+    fn columns(&self) -> Vec<(&Column<'a>, f64)> {
         let mut x = self.left;
         let mut all = Vec::new();
-        for (_, solvers) in &self.groups {
-            for solver in solvers {
-                all.push((*solver, x));
+        for (_, columns) in &self.groups {
+            for column in columns {
+                all.push((column, x));
                 x += CELL.0;
             }
             x += GAP;
@@ -172,19 +197,16 @@ impl<'a> Map<'a> {
 
     fn draw(&self, canvas: &Canvas) -> Result<(), Fault> {
         draw_key(canvas)?;
-        for (n, (control, solvers)) in self.groups.iter().enumerate() {
-            let first = self.columns().iter().find(|(s, _)| s == &solvers[0]).map_or(0.0, |c| c.1);
-            let title = match *control {
-                "step" => "finest step",
-                "rtol" => "rtol next to 10⁻⁶",
-                other => other,
-            };
-            let room =
-                CELL.0 * solvers.len() as f64 + if n + 1 < self.groups.len() { GAP } else { 90.0 };
-            canvas.text(&fit(title, room), (first, 48.0), Side::Right, Ink::Title)?;
+        let mut first = self.left;
+        for (n, (title, columns)) in self.groups.iter().enumerate() {
+            let room = CELL.0 * columns.len() as f64 + GAP;
+            let last = n + 1 == self.groups.len();
+            let title = fit(title, if last { room.max(90.0) } else { room });
+            canvas.text(&title, (first, 48.0), Side::Right, Ink::Title)?;
+            first += room;
         }
-        for (solver, x) in self.columns() {
-            canvas.text_up(&fit(solver, NAMES.1), (x + CELL.0 / 2.0, self.head), Ink::Text)?;
+        for (column, x) in self.columns() {
+            canvas.text_up(&fit(column.name, NAMES.1), (x + CELL.0 / 2.0, self.head), Ink::Text)?;
         }
         for (n, row) in self.rows.iter().enumerate() {
             let y = self.top(n);
@@ -194,8 +216,8 @@ impl<'a> Map<'a> {
             }
             let middle = y + CELL.1 / 2.0;
             canvas.text(&fit(&row.name, NAMES.0), (8.0, middle), Side::Right, Ink::Text)?;
-            for (solver, x) in self.columns() {
-                if let Some(cell) = row.cell(solver) {
+            for (column, x) in self.columns() {
+                if let Some(cell) = row.cell(column) {
                     draw_cell(canvas, (x, y), &cell)?;
                 }
             }
@@ -206,8 +228,8 @@ impl<'a> Map<'a> {
     fn data(&self) -> Vec<Datum> {
         let mut all = Vec::new();
         for row in &self.rows {
-            for (solver, _) in self.columns() {
-                let Some(cell) = row.cell(solver) else { continue };
+            for (column, _) in self.columns() {
+                let Some(cell) = row.cell(column) else { continue };
                 let mut note = Vec::new();
                 if cell.case.status != SOLVED {
                     note.push(cell.case.status.clone());
@@ -217,7 +239,7 @@ impl<'a> Map<'a> {
                 }
                 all.push(Datum {
                     panel: format!("{}: {}", self.titles[row.chapter], row.name),
-                    series: solver.to_owned(),
+                    series: cell.case.solver.clone(),
                     x: Some(cell.case.value),
                     y: cell.case.error_max.filter(|_| cell.case.status == SOLVED),
                     note: note.join("; "),
@@ -288,6 +310,7 @@ fn draw_key(canvas: &Canvas) -> Result<(), Fault> {
 pub(crate) const READS: &str = "A number k stands for a largest error of at most 10^k, relative. \
      Fixed steps are shown at the finest step of their study, step control at the tolerance next to 10⁻⁶, \
      both restarted at corners where that was run. \
+     Ours are the methods that are given the task; of exact ones that hold on the same problem the worst is shown. \
      An empty cell is a solver that was not run on that problem.";
 
 #[cfg(test)]

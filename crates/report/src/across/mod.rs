@@ -3,6 +3,7 @@
 mod cheapest;
 mod heat;
 mod opening;
+mod ours;
 mod tables;
 
 pub(crate) use heat::READS;
@@ -11,7 +12,7 @@ use crate::chapter::Chapter;
 use crate::figures::Drawing;
 use crate::grid::Grid;
 use crate::number;
-use crate::select::{SOLVED, by_solver, distinct};
+use crate::select::{SOLVED, by_solver, distinct, is_exact, is_ours};
 use crate::{Output, ReportError};
 use record::CaseRow;
 
@@ -65,6 +66,11 @@ impl<'a> Problem<'a> {
         self.cases.iter().copied().filter(move |case| case.solver == solver)
     }
 
+    /// The runs of solvers, which are given a right-hand side and nothing else.
+    fn of_solvers(&self) -> impl Iterator<Item = &'a CaseRow> {
+        self.ordered().filter(|case| !is_ours(case))
+    }
+
     /// The runs in the order of the solvers, so that the first of equals is always the same.
     fn ordered(&self) -> impl Iterator<Item = &'a CaseRow> {
         by_solver(self.cases.iter().copied()).into_iter().flat_map(|(_, cases)| cases)
@@ -92,6 +98,9 @@ fn told(case: &CaseRow) -> String {
         "step" => format!("{} steps per period or run", number::short(case.value)),
         other => format!("{other} {}", number::short(case.value)),
     };
+    if is_ours(case) {
+        return if is_exact(case) { "exact".to_owned() } else { control };
+    }
     format!("{control}, {}", crate::select::corners_in_words(&case.corners))
 }
 
@@ -143,13 +152,15 @@ impl Across {
         let mut tables = vec![tables::solvers(&problems, &solvers)];
         tables.extend(tables::lies(&problems));
         tables.push(cheapest::table(&problems));
+        tables.extend(ours::table(&problems));
         for chapter in 0..chapters.len() {
             let own: Vec<&Problem> = problems.iter().filter(|p| p.chapter == chapter).collect();
             tables.extend((!own.is_empty()).then(|| tables::matrix(&own, &solvers)));
         }
         let budgets = problems.iter().map(|problem| problem.budget);
-        let text =
-            vec![opening::findings(&problems, &solvers), opening::terms(chapters, &problems)];
+        let mut text = vec![opening::findings(&problems, &solvers), ours::told(&problems)];
+        text.push(opening::terms(chapters, &problems));
+        text.retain(|text| !text.is_empty());
         let (counted, map) = (counted(budgets), heat::draw(&problems, &solvers, &titles)?);
         Ok(Some(Self { text, counted, map, tables }))
     }
@@ -208,5 +219,6 @@ fn counted(budgets: impl Iterator<Item = u64>) -> Vec<String> {
          *missed by three digits* if a method with step control is above 1000 times its relative tolerance. \
          A fixed step promises no accuracy, so only the first can be held against it."
             .to_owned(),
+        ours::counted(),
     ]
 }

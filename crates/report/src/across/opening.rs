@@ -3,7 +3,7 @@
 use super::{Problem, Silence, cheapest};
 use crate::chapter::Chapter;
 use crate::number;
-use crate::select::{by_solver, distinct};
+use crate::select::{by_solver, distinct, is_ours};
 
 /// The findings, computed from the tables.
 pub(super) fn findings(problems: &[Problem], solvers: &[&str]) -> String {
@@ -30,6 +30,9 @@ fn reliable(text: &mut String, problems: &[Problem], solvers: &[&str]) {
         let n = run.clone().filter(|p| cheapest(p.of(solver), 1e-3).is_some()).count();
         (n, run.count())
     };
+    // A method of ours is run only where it holds, and told apart.
+    let given = |solver: &&&str| problems.iter().flat_map(|p| p.of(solver)).any(|c| !is_ours(c));
+    let solvers: Vec<&str> = solvers.iter().filter(given).copied().collect();
     let counts: Vec<(usize, usize)> = solvers.iter().map(reached).collect();
     let most = counts.iter().map(|(n, _)| *n).max().unwrap_or(0);
     let least = counts.iter().map(|(n, _)| *n).min().unwrap_or(0);
@@ -51,7 +54,7 @@ fn reliable(text: &mut String, problems: &[Problem], solvers: &[&str]) {
 
 /// Who is cheapest most often at 10⁻⁶.
 fn cheap(text: &mut String, problems: &[Problem]) {
-    let winners = problems.iter().filter_map(|problem| cheapest(problem.ordered(), 1e-6));
+    let winners = problems.iter().filter_map(|problem| cheapest(problem.of_solvers(), 1e-6));
     let wins = by_solver(winners);
     let reached: usize = wins.iter().map(|(_, cases)| cases.len()).sum();
     let most = wins.iter().map(|(_, cases)| cases.len()).max().unwrap_or(0);
@@ -62,7 +65,7 @@ fn cheap(text: &mut String, problems: &[Problem]) {
     let names = wins.iter().filter(|(_, cases)| cases.len() == most).map(|(name, _)| *name);
     put!(
         text,
-        " At 10⁻⁶ the cheapest is most often {}, on {most} of the {reached} problems that anybody brings there.",
+        " At 10⁻⁶ the cheapest of them is most often {}, on {most} of the {reached} problems that anybody brings there.",
         joined(names.collect())
     );
 }
@@ -126,7 +129,7 @@ pub(super) fn terms(chapters: &[Chapter], problems: &[Problem]) -> String {
 }
 
 /// `a, b and c`.
-fn joined(mut names: Vec<&str>) -> String {
+pub(super) fn joined(mut names: Vec<&str>) -> String {
     let last = names.pop().unwrap_or_default();
     if names.is_empty() { last.to_owned() } else { format!("{} and {last}", names.join(", ")) }
 }

@@ -35,7 +35,7 @@ pub(super) fn charts(cases: &Selection, x: &Axis, against: &str, guides: &[Guide
     let mut charts = Vec::new();
     for point in &cases.points {
         for corners in cases.corners() {
-            let here = |case: &&&CaseRow| case.point == *point && case.corners == corners;
+            let here = |case: &&&CaseRow| case.point == *point && cases.shows(case, corners);
             let mut chart = Chart {
                 title: title(point, corners_in_words(corners)),
                 x: x.clone(),
@@ -64,7 +64,8 @@ pub(super) fn title(point: &str, rest: &str) -> String {
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
 }
 
-/// The axis of largest errors: above ten times the answer there is nothing to compare.
+/// The axis of largest errors: above ten times the answer there is nothing to compare, and below round-off
+/// nothing to see.
 pub(super) fn error_axis(selection: &Selection) -> Axis {
     let solved = selection.cases.iter().filter(|case| case.status == SOLVED);
     let label = match selection.response {
@@ -72,7 +73,9 @@ pub(super) fn error_axis(selection: &Selection) -> Axis {
         response => format!("largest error of {response}, relative"),
     };
     let errors = solved.filter_map(|case| case.error_max);
-    Axis::decades(&label, errors.map(|e| e.clamp(1e-17, 10.0)))
+    let axis = Axis::decades(&label, errors.map(|e| e.clamp(number::ROUND_OFF, 10.0)));
+    let below = axis.from < 2.0 * number::ROUND_OFF;
+    Axis { below, ..axis }
 }
 
 /// A solver's solved cases as a line, the others as marks in the lane.

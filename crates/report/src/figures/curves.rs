@@ -32,7 +32,7 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
     };
     let chart = |panel: &&PanelRow| {
         let axis = |label: &str, from, to, log| {
-            Axis { label: label.to_owned(), from, to, log, at: Vec::new() }.checked()
+            Axis { label: label.to_owned(), from, to, log, ..Axis::default() }.checked()
         };
         let lines = lines(&rows, panel, &names, alone);
         let lane = failures(figure, summary, panel, &lines);

@@ -1,20 +1,20 @@
 //! Largest error against evaluations of the right-hand side: what accuracy costs, solver by solver.
 //!
 //! Fixed steps and step control stand side by side on the same axes, each with the other's lines in grey:
-//! fourteen lines in one panel could not be told apart.
+//! fourteen lines in one panel could not be told apart. An exact method is one mark, at its cost and its round-off.
 
 use super::convergence::{add, error_axis, title};
 use super::{Drawing, of_charts};
 use crate::ReportError;
 use crate::plot::{Axis, Chart};
-use crate::select::{SOLVED, by_solver, corners_in_words, distinct, select};
+use crate::select::{SOLVED, by_solver, corners_in_words, distinct, is_exact, is_ours, select};
 use record::{CaseRow, FigureRow, Summary};
 
-/// A row of panels for each sweep point; where both treatments of corners were run, the restarted ones.
+/// A row of panels for each sweep point, ours with step control; where both treatments of corners were run, the restarted ones.
 pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, ReportError> {
     let mut cases = select(figure, summary, None);
-    let corners = cases.corners().first().map(|name| (*name).to_owned()).unwrap_or_default();
-    cases.cases.retain(|case| case.corners == corners);
+    let corners = cases.corners().first().copied().unwrap_or_default();
+    cases.cases.retain(|case| is_ours(case) || case.corners == corners);
     let work = |case: &CaseRow| case.evaluations.max(1) as f64;
     // A run that failed spent its budget: it would squeeze those that solved, and stands at the edge instead.
     let all = cases.cases.iter();
@@ -23,7 +23,12 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
     let x = Axis::tight("evaluations", set_by.into_iter());
     let y = error_axis(&cases);
     let mut controls = distinct(cases.cases.iter().map(|case| case.control.as_str()));
-    controls.sort_by_key(|name| std::cmp::Reverse(*name));
+    controls.sort_by_key(|name| (*name == "none", *name != "step"));
+    // An exact method needs no control: it stands with those that control themselves.
+    if controls.len() > 1 {
+        controls.retain(|name| *name != "none");
+    }
+    let last = controls.last().copied().unwrap_or_default();
     let mut charts = Vec::new();
     for point in &cases.points {
         let mut row: Vec<Chart> = Vec::new();
@@ -31,16 +36,20 @@ pub(super) fn draw(figure: &FigureRow, summary: &Summary) -> Result<Drawing, Rep
             let name = match *control {
                 "step" => "fixed step",
                 "rtol" => "step control",
+                "none" => "exact",
                 other => other,
             };
             let mut chart = Chart {
-                title: title(point, &format!("{name}, {}", corners_in_words(&corners))),
+                title: title(point, &format!("{name}, {}", corners_in_words(corners))),
                 x: x.clone(),
                 y: y.clone(),
                 size: (414.0, 230.0),
                 ..Chart::default()
             };
-            let here = |case: &&CaseRow| case.point == *point && case.control == *control;
+            let here = |case: &&CaseRow| {
+                let exact = is_exact(case) && *control == last;
+                case.point == *point && (exact || case.control == *control)
+            };
             for (solver, own) in by_solver(cases.cases.iter().copied().filter(here)) {
                 add(&mut chart, solver, &own, work);
             }

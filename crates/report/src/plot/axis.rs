@@ -17,6 +17,8 @@ pub(crate) struct Axis {
     pub(crate) log: bool,
     /// The values to label; none for round ones.
     pub(crate) at: Vec<f64>,
+    /// Whether its start stands for all that is less.
+    pub(crate) below: bool,
 }
 
 /// A place on an axis and its label.
@@ -54,7 +56,8 @@ impl Axis {
         let (low, high) = ends(values.iter().copied()).unwrap_or((1.0, 10.0));
         let air = (high / low).powf(0.05).max(1.1);
         let at = if values.len() > 8 { Vec::new() } else { values };
-        Self { label: label.to_owned(), from: low / air, to: high * air, log: true, at }
+        let label = label.to_owned();
+        Self { label, from: low / air, to: high * air, log: true, at, below: false }
     }
 
     /// The same axis from the other end.
@@ -95,7 +98,13 @@ impl Axis {
             return self.at.iter().map(|v| (*v, self.label_of(*v))).collect();
         }
         let (low, high) = (self.from.min(self.to), self.from.max(self.to));
-        if self.log { log_ticks(low, high, most) } else { linear_ticks(low, high, most) }
+        let mut ticks =
+            if self.log { log_ticks(low, high, most) } else { linear_ticks(low, high, most) };
+        if self.below {
+            ticks.retain(|(value, _)| (value / self.from).log10() > 0.5);
+            ticks.push((self.from, format!("<\u{202f}{}", self.label_of(self.from))));
+        }
+        ticks
     }
 
     /// A value as this axis writes it: whole decades of a logarithmic one as powers.

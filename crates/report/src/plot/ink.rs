@@ -14,12 +14,13 @@ pub(crate) enum Shape {
     Triangle,
     Down,
     Diamond,
+    Star,
 }
 
 /// How one series looks wherever it is drawn: colour, dash and mark together tell it from every other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Look {
-    /// 1 to 4.
+    /// 1 to 4; 5 for the methods of our own that are given the task.
     pub(crate) colour: u8,
     /// 0 to 5, 0 being a solid line.
     pub(crate) dash: u8,
@@ -33,7 +34,11 @@ const fn look(colour: u8, dash: u8, shape: Shape, hollow: bool) -> Look {
     Look { colour, dash, shape, hollow }
 }
 
+/// The colour of what is given the task.
+const OURS: u8 = 5;
+
 /// The solvers by name: solid is our own (implicit ones hollow), long dashes `ode_solvers`, short ones `diffsol`.
+/// Behind them, in a colour of their own, what is given the task: a star is exact.
 const SOLVERS: &[(&str, Look)] = &[
     ("explicit-euler", look(1, 0, Shape::Circle, false)),
     ("heun", look(2, 0, Shape::Square, false)),
@@ -49,6 +54,14 @@ const SOLVERS: &[(&str, Look)] = &[
     ("tr_bdf2", look(2, 2, Shape::Diamond, true)),
     ("esdirk34", look(3, 2, Shape::Circle, true)),
     ("tsit45", look(4, 2, Shape::Down, false)),
+    ("exact-dahl", look(OURS, 0, Shape::Star, false)),
+    ("exact-lugre", look(OURS, 1, Shape::Star, false)),
+    ("exact-maxwell-slip", look(OURS, 2, Shape::Star, false)),
+    ("exact-semilinear", look(OURS, 0, Shape::Star, true)),
+    ("exact-slip-plant", look(OURS, 3, Shape::Star, false)),
+    ("dahl-series", look(OURS, 0, Shape::Diamond, false)),
+    ("lugre-linear", look(OURS, 0, Shape::Down, false)),
+    ("radau-located", look(OURS, 0, Shape::Triangle, true)),
 ];
 
 const SHAPES: [Shape; 5] =
