@@ -9,7 +9,7 @@ use integrate::{Failure, Work};
 use std::f64::consts::PI;
 
 /// The share of the tolerance that the last coefficients may be.
-const SAFETY: f64 = 0.08;
+const SAFETY: f64 = 0.06;
 
 /// Forces that balance to this many units of rounding balance.
 const BALANCED: f64 = 16.0 * f64::EPSILON;
