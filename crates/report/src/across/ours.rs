@@ -4,7 +4,7 @@
 use super::{Problem, Table, cheapest};
 use crate::grid::Grid;
 use crate::number;
-use crate::select::{distinct, is_exact, is_ours};
+use crate::select::{SOLVED, by_solver, distinct, is_exact, is_ours};
 use record::CaseRow;
 
 /// The delivered errors that costs are compared at.
@@ -72,37 +72,58 @@ pub(super) fn told(problems: &[Problem]) -> String {
         with(false),
         problems.len()
     );
-    for (bound, name) in BOUNDS {
+    failed(&mut text, &held);
+    text.push_str(" Evaluations of the cheapest of ours over those of the best library solver:");
+    let each = BOUNDS.map(|(bound, name)| {
         let pairs: Vec<Pair> = held.iter().map(|p| Pair::of(p, bound)).collect();
-        let mut ratios: Vec<f64> = pairs.iter().filter_map(|pair| pair.ratio()).collect();
-        ratios.sort_by(f64::total_cmp);
-        let fewer = ratios.iter().filter(|ratio| **ratio < 1.0).count();
-        let alone = |ours: bool| {
-            let only = |pair: &&Pair| pair.ours.is_some() == ours && pair.library.is_some() != ours;
-            pairs.iter().filter(only).count()
-        };
-        put!(
-            text,
-            " At {name} the cheapest of ours takes fewer evaluations than the best library solver on {fewer} of {} \
-             problems{}; ours alone arrives there on {}, a library alone on {}.",
-            ratios.len(),
-            range(&ratios),
-            alone(true),
-            alone(false)
-        );
-    }
+        format!("at {name} {}", compared(&pairs))
+    });
+    put!(text, " {}.", each.join("; "));
     text.push_str(
         " These are counts and not times: times at equal delivered error are told by *cargo xtask bench anchors*.",
     );
     text
 }
 
-/// ` (0.01× to 3×, in the middle 0.2×)` of sorted ratios.
-fn range(ratios: &[f64]) -> String {
+/// How many of our runs failed, and whose.
+fn failed(text: &mut String, held: &[&Problem]) {
+    let runs: Vec<&CaseRow> =
+        held.iter().flat_map(|p| p.ordered()).filter(|case| is_ours(case)).collect();
+    let failed = by_solver(runs.iter().copied().filter(|case| case.status != SOLVED));
+    let names = failed.iter().map(|(name, cases)| format!("{name} {}", cases.len()));
+    let told = match failed.iter().map(|(_, cases)| cases.len()).sum::<usize>() {
+        0 => "none".to_owned(),
+        n => format!("{n} ({})", names.collect::<Vec<_>>().join(", ")),
+    };
+    put!(text, " Of their {} runs {told} failed.", runs.len());
+}
+
+/// The ratios in the middle and at their ends, and who arrives alone.
+fn compared(pairs: &[Pair]) -> String {
+    let mut ratios: Vec<f64> = pairs.iter().filter_map(|pair| pair.ratio()).collect();
+    ratios.sort_by(f64::total_cmp);
     let n = ratios.len();
-    let (Some(least), Some(most)) = (ratios.first(), ratios.last()) else { return String::new() };
-    let middle = f64::midpoint(ratios[(n - 1) / 2], ratios[n / 2]);
-    format!(" ({} to {}, in the middle {})", times(*least), times(*most), times(middle))
+    let mut text = match (ratios.first(), ratios.last()) {
+        (Some(least), Some(most)) => {
+            let middle = f64::midpoint(ratios[(n - 1) / 2], ratios[n / 2]);
+            let fewer = ratios.iter().filter(|ratio| **ratio < 1.0).count();
+            format!(
+                "in the middle {} ({} to {}), below 1 on {fewer} of the {n} problems that both bring there",
+                times(middle),
+                times(*least),
+                times(*most)
+            )
+        }
+        _ => "no problem that both bring there".to_owned(),
+    };
+    for (ours, who) in [(true, "ours alone"), (false, "a library alone")] {
+        let only = |pair: &&Pair| pair.ours.is_some() == ours && pair.library.is_some() != ours;
+        let count = pairs.iter().filter(only).count();
+        if count > 0 {
+            put!(text, ", and {who} on {count} more");
+        }
+    }
+    text
 }
 
 /// What their counts count.
