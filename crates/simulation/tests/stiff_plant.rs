@@ -130,6 +130,24 @@ fn a_drive_with_corners_is_restarted_at_them() {
 }
 
 #[test]
+fn a_step_that_misses_a_corner_by_less_than_the_clock_resolves_arrives_there() {
+    let (staircase, _) = anchor("P5");
+    let omega = 0.001;
+    let period = 2.0 * std::f64::consts::PI / omega;
+    let t: Vec<f64> = (0..=200).map(|i| period * f64::from(i) / 100.0).collect();
+    let span = (0.0, 2.0 * period);
+    let grid = times(2.0 * period, 100);
+    for i in 0..25 {
+        let amplitude = 5.0 + 0.2 * f64::from(i);
+        let u = t.iter().map(|t| amplitude * (omega * t).sin()).collect();
+        let input = Input::sampled(t.clone(), u).expect("a record");
+        let task = Task { input, span, ..staircase.clone() };
+        let (_, delivered) = deliver("radau-located", &task, 1e-6, &grid);
+        assert_eq!(delivered.outcome, Outcome::Solved, "{amplitude} N");
+    }
+}
+
+#[test]
 fn what_it_does_not_hold_for_it_refuses_in_words() {
     let refused = |task: &Task| match (method("radau-located").build)(task) {
         Ok(_) => panic!("it took {task:?}"),

@@ -13,6 +13,7 @@ use duhem::{FrictionModel, Input, LuGre, closed_form::lugre::advance, sgn};
 use integrate::{Failure, Limits, Outcome, Work};
 use panel::{Driven, LANES};
 use rule::{N, Rule};
+use std::sync::LazyLock;
 
 /// LuGre under any imposed motion.
 pub(super) const METHOD: Own = Own {
@@ -34,13 +35,16 @@ const BEYOND: f64 = 6.0;
 /// The error of a panel on which it is not seen, in units of what is allowed.
 const UNSEEN: f64 = 1e4;
 
+/// The nodes and their matrices are the same for every task: computed once.
+static RULE: LazyLock<Rule> = LazyLock::new(Rule::new);
+
 #[derive(Debug)]
 struct LugreLinear {
     lugre: LuGre,
     input: Input,
     x0: f64,
     span: (f64, f64),
-    rule: Rule,
+    rule: &'static Rule,
 }
 
 impl LugreLinear {
@@ -61,7 +65,7 @@ impl LugreLinear {
         match task.y0[..] {
             [x0] if x0.is_finite() => {
                 let (input, span) = (task.input.clone(), task.span);
-                Ok(Self { lugre, input, x0, span, rule: Rule::new() })
+                Ok(Self { lugre, input, x0, span, rule: &RULE })
             }
             _ => Err(refuse(format!("the initial state {:?}", task.y0), "one finite deflection")),
         }
@@ -183,7 +187,7 @@ impl Run<'_> {
         for (rate, (speed, r)) in rate.iter_mut().zip(speed.iter().zip(&r)) {
             *rate = half * speed / r;
         }
-        let (series, end) = panel::series(&of.rule, &Driven { r, rate }, s * self.x);
+        let (series, end) = panel::series(of.rule, &Driven { r, rate }, s * self.x);
         if !(end.is_finite() && series[N].is_finite()) {
             return Err(Failure::NotFinite);
         }
