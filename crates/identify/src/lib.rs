@@ -1,0 +1,11 @@
+//! A record of a real drive and the model of its rig: the fit, and what the record cannot tell.
+//!
+//! **Invariant**: knows no files, no plots, no answer keys and not the `twin`; a rig file comes as text, a
+//! record as columns of numbers.
+//!
+//! Read first: [`Rig`], the plant, its friction and which column of a record is what; [`Recording`], the
+//! columns as channels in SI units.
+
+pub mod rig;
+
+pub use rig::{Channel, Controller, Effect, Friction, Hold, Rig, Shaft};

@@ -1,0 +1,96 @@
+//! The rig file: the plant, its nominal friction, what is free, and which column is which channel.
+
+use std::collections::BTreeMap;
+
+/// A rig, as its file declares it, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rig {
+    /// What it is.
+    pub title: String,
+    /// The kind of plant, a name of [`crate::rig::KINDS`].
+    pub kind: &'static str,
+    /// The plant's parameters by their keys, `offset` and an axis' `gain` among them.
+    pub plant: BTreeMap<String, f64>,
+    /// Its nominal friction.
+    pub friction: Friction,
+    /// The names of the free parameters, as written: `f_c`, `k[2]`, `current_bias.bias`.
+    pub free: Vec<String>,
+    /// Which column is which channel, by the channel's name.
+    pub channels: BTreeMap<String, Channel>,
+    /// The controller that made the record, where it is declared.
+    pub controller: Option<Controller>,
+    /// What is part of the model beside plant and friction.
+    pub effects: Vec<Effect>,
+}
+
+/// A friction model by its name, with its parameters and the viscous term every one of them may have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Friction {
+    /// A name of [`duhem::MODELS`], or `none`.
+    pub name: String,
+    /// The model's parameters by their keys, without the viscous one of models that have none.
+    pub parameters: duhem::Parameters,
+    /// Viscous coefficient σ₂ [N·s/m] or [N·m·s/rad].
+    pub sigma_2: f64,
+}
+
+/// A column of the record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Channel {
+    /// The column's header.
+    pub column: String,
+    /// The unit in which it is written; SI if none is said.
+    pub unit: Option<String>,
+    /// The step of an encoder or converter, in SI units, where it is known.
+    pub quantum: Option<f64>,
+    /// On which side of the gear it is measured.
+    pub at: Shaft,
+    /// What an input does between its samples.
+    pub hold: Hold,
+}
+
+/// The two sides of the gear.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Shaft {
+    /// At the load: the drum.
+    #[default]
+    Drum,
+    /// At the motor: an angle or a speed is divided by `gear_ratio`.
+    Motor,
+}
+
+/// What an input does between two samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Hold {
+    /// It goes straight from one to the next.
+    #[default]
+    Linear,
+    /// It stays, and jumps at the next.
+    ZeroOrder,
+}
+
+/// A controller that made the record.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Controller {
+    /// Its kind: `pd`.
+    pub kind: String,
+    /// Position gain k_p [1/s].
+    pub kp: f64,
+    /// Velocity gain k_v [V·s/m].
+    pub kv: f64,
+    /// Largest command [V].
+    pub limit: f64,
+    /// Sampling time [s].
+    pub sample_time: f64,
+    /// What its command does between its samples.
+    pub hold: Hold,
+}
+
+/// An effect that is part of the model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Effect {
+    /// Its name.
+    pub name: String,
+    /// Its values by their keys, in SI units.
+    pub values: BTreeMap<String, f64>,
+}
