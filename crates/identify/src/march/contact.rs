@@ -1,0 +1,214 @@
+//! The friction of one stage: its states and its force as functions of the stage's velocity alone.
+
+use super::{Real, size};
+
+/// A friction model without its viscous term, in numbers that may carry derivatives.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Contact<D> {
+    /// No friction.
+    None,
+    /// F = F_C sgn v, any force up to F_C at rest.
+    Coulomb {
+        /// Coulomb force F_C [N].
+        f_c: D,
+    },
+    /// The state is the force itself, Ḟ = σ|w|^γ sgn(w) v with w = 1 − (F/F_C) sgn v.
+    Dahl {
+        /// Coulomb force F_C [N].
+        f_c: D,
+        /// Rest stiffness σ [N/m].
+        sigma: D,
+        /// Shape γ [1].
+        gamma: D,
+    },
+    /// The state is the bristles' deflection z [m], ż = v − |v|/r(v) z and F = σ₀z + σ₁ż.
+    LuGre {
+        /// Coulomb force F_C [N].
+        f_c: D,
+        /// Stiction force F_S [N].
+        f_s: D,
+        /// Stribeck velocity v_S [m/s].
+        v_s: D,
+        /// Bristle stiffness σ₀ [N/m].
+        sigma_0: D,
+        /// Bristle damping σ₁ [N·s/m].
+        sigma_1: D,
+    },
+    /// The states are the deflections of the elements [m], each between −Δᵢ and Δᵢ.
+    MaxwellSlip {
+        /// Stiffnesses kᵢ [N/m].
+        k: Vec<D>,
+        /// Deadbands Δᵢ [m].
+        delta: Vec<D>,
+    },
+}
+
+impl<D: Real> Contact<D> {
+    /// The number of states.
+    pub fn states(&self) -> usize {
+        match self {
+            Self::None | Self::Coulomb { .. } => 0,
+            Self::Dahl { .. } | Self::LuGre { .. } => 1,
+            Self::MaxwellSlip { k, .. } => k.len(),
+        }
+    }
+
+    /// The force that holds at rest whatever the velocity does next, F_C of Coulomb friction; none of the
+    /// others has such a jump.
+    pub(super) fn dry(&self) -> Option<D> {
+        match self {
+            Self::Coulomb { f_c } => Some(*f_c),
+            _ => None,
+        }
+    }
+
+    /// The friction force [N] of a stage with velocity `v` [m/s], without the jump of [`Self::dry`]; writes
+    /// its states z, which solve z = `base` + `dt` ż(z, v), dt [s] being the stage's own share of the step.
+    pub(super) fn stage(&self, base: &[D], dt: f64, v: D, z: &mut [D]) -> D {
+        match self {
+            Self::None | Self::Coulomb { .. } => D::from(0.0),
+            Self::Dahl { f_c, sigma, gamma } => {
+                z[0] = dahl([*f_c, *sigma, *gamma], base[0], v * dt);
+                z[0]
+            }
+            Self::LuGre { f_c, f_s, v_s, sigma_0, sigma_1 } => {
+                let s = v / *v_s;
+                let r = (*f_c + (*f_s - *f_c) * (-s * s).exp()) / *sigma_0;
+                let path = v * dt;
+                z[0] = (base[0] + path) / (size(path) / r + 1.0);
+                *sigma_0 * z[0] + *sigma_1 * (z[0] - base[0]) / dt
+            }
+            Self::MaxwellSlip { k, delta } => {
+                let mut force = D::from(0.0);
+                for (i, (k, delta)) in k.iter().zip(delta).enumerate() {
+                    z[i] = within(base[i] + v * dt, *delta);
+                    force += *k * z[i];
+                }
+                force
+            }
+        }
+    }
+
+    /// The same with every number turned into another kind.
+    pub(super) fn map<E: Real>(&self, to: &dyn Fn(D) -> E) -> Contact<E> {
+        match self {
+            Self::None => Contact::None,
+            Self::Coulomb { f_c } => Contact::Coulomb { f_c: to(*f_c) },
+            Self::Dahl { f_c, sigma, gamma } => {
+                Contact::Dahl { f_c: to(*f_c), sigma: to(*sigma), gamma: to(*gamma) }
+            }
+            Self::LuGre { f_c, f_s, v_s, sigma_0, sigma_1 } => Contact::LuGre {
+                f_c: to(*f_c),
+                f_s: to(*f_s),
+                v_s: to(*v_s),
+                sigma_0: to(*sigma_0),
+                sigma_1: to(*sigma_1),
+            },
+            Self::MaxwellSlip { k, delta } => Contact::MaxwellSlip {
+                k: k.iter().map(|k| to(*k)).collect(),
+                delta: delta.iter().map(|d| to(*d)).collect(),
+            },
+        }
+    }
+
+    /// The states [N] or [m] of a contact that has been sliding at the velocity `v` for long.
+    pub fn sliding(&self, v: f64) -> Vec<D> {
+        let toward = |x: D| if v < 0.0 { -x } else { x };
+        match self {
+            Self::None | Self::Coulomb { .. } => Vec::new(),
+            Self::Dahl { f_c, .. } => vec![toward(*f_c)],
+            Self::LuGre { f_c, f_s, v_s, sigma_0, .. } => {
+                let s = v_s.recip() * v;
+                vec![toward((*f_c + (*f_s - *f_c) * (-s * s).exp()) / *sigma_0)]
+            }
+            Self::MaxwellSlip { delta, .. } => delta.iter().map(|d| toward(*d)).collect(),
+        }
+    }
+
+    /// The states [N] or [m] of a contact at rest that holds the `force` [N], at most what it can hold.
+    pub fn holding(&self, force: D) -> Vec<D> {
+        match self {
+            Self::None | Self::Coulomb { .. } => Vec::new(),
+            Self::Dahl { f_c, .. } => vec![within(force, *f_c)],
+            Self::LuGre { f_c, f_s, sigma_0, .. } => {
+                let most = if f_s.re() > f_c.re() { *f_s } else { *f_c };
+                vec![within(force, most) / *sigma_0]
+            }
+            Self::MaxwellSlip { k, delta } => {
+                let most = k.iter().zip(delta).fold(D::from(0.0), |sum, (k, d)| sum + *k * *d);
+                let share = within(force / most, D::from(1.0));
+                delta.iter().map(|d| *d * share).collect()
+            }
+        }
+    }
+
+    /// The distance [m] over which the contact forgets where it was.
+    pub fn memory(&self) -> f64 {
+        match self {
+            Self::None | Self::Coulomb { .. } => 0.0,
+            Self::Dahl { f_c, sigma, .. } => f_c.re() / sigma.re(),
+            Self::LuGre { f_c, f_s, sigma_0, .. } => f_c.re().max(f_s.re()) / sigma_0.re(),
+            Self::MaxwellSlip { delta, .. } => delta.iter().map(|d| d.re()).fold(0.0, f64::max),
+        }
+    }
+
+    /// The natural size of the states [N] or [m].
+    pub(super) fn scale(&self) -> f64 {
+        match self {
+            Self::Dahl { f_c, .. } => f_c.re(),
+            _ => self.memory(),
+        }
+    }
+}
+
+fn within<D: Real>(x: D, most: D) -> D {
+    if x.re() > most.re() {
+        most
+    } else if x.re() < -most.re() {
+        -most
+    } else {
+        x
+    }
+}
+
+/// The force at the end of a `path` [m] by the implicit rule F = `base` + σ|w|^γ sgn(w) path.
+///
+/// With s = sgn path and w = 1 − sF/F_C it is w + κ|w|^γ sgn w = w_b, κ = σ|path|/F_C, which has one solution.
+fn dahl<D: Real>([f_c, sigma, gamma]: [D; 3], base: D, path: D) -> D {
+    let up = path.re() >= 0.0;
+    let along = |f: D| if up { f } else { -f };
+    let w_base = -along(base) / f_c + 1.0;
+    let kappa = sigma * size(path) / f_c;
+    let w = root(w_base.re(), kappa.re(), gamma.re());
+    if w == 0.0 {
+        return along(f_c);
+    }
+    let excess = kappa * (gamma * w.abs().ln()).exp() * w.signum() + w - w_base;
+    let slope = 1.0 + kappa.re() * gamma.re() * w.abs().powf(gamma.re() - 1.0);
+    along((excess / slope - w + 1.0) * f_c)
+}
+
+/// w with w + κ|w|^γ sgn w = w_b, between 0 and w_b, to the last digits.
+fn root(w_base: f64, kappa: f64, gamma: f64) -> f64 {
+    if gamma == 0.0 {
+        return w_base.signum() * (w_base.abs() - kappa).max(0.0);
+    }
+    if gamma == 1.0 {
+        return w_base / (1.0 + kappa);
+    }
+    // In y = w^γ for γ < 1 and in w itself for γ ≥ 1 the function is convex and Newton's method monotone.
+    let target = w_base.abs();
+    let (p, q) = if gamma < 1.0 { (1.0 / gamma, 1.0) } else { (1.0, gamma) };
+    let mut y = if gamma < 1.0 { target.powf(gamma) } else { target };
+    for _ in 0..100 {
+        let (value, slope) = (y.powf(p), kappa * y.powf(q));
+        let excess = value + slope - target;
+        let steep = (p * value + q * slope) / y;
+        let next = (y - excess / steep).max(0.0);
+        if !(next < y * (1.0 - 1e-15)) {
+            break;
+        }
+        y = next;
+    }
+    w_base.signum() * y.powf(p)
+}

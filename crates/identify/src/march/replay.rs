@@ -1,0 +1,123 @@
+//! The same steps once more, with derivatives.
+
+use super::{
+    Drive, Model, Start, Tape,
+    run::{Step, inputs},
+    stage::{Base, Share, excess},
+    tableau::{A, C, GAMMA},
+};
+use num_dual::{Derivative, DualSVec64, DualStruct};
+
+/// Goes over the steps of `tape` with numbers that carry derivatives in their first P − 1 places; the last one
+/// belongs to the stages. Calls `see(i, q, v, u)` at every sample.
+///
+/// With G(v, p) = 0 the balance of a stage, ∂v/∂p = −(∂G/∂p)/(∂G/∂v).
+pub fn replay<const P: usize>(
+    model: &Model<DualSVec64<P>>,
+    drive: &Drive<'_>,
+    tape: &Tape,
+    start: &Start<DualSVec64<P>>,
+    see: &mut dyn FnMut(usize, DualSVec64<P>, DualSVec64<P>, DualSVec64<P>),
+) {
+    let samples = tape.until.len() + 1;
+    let mut state = start.clone();
+    let mut seen = Vec::with_capacity(3);
+    let mut walker = Again::new(model);
+    let mut next = 0;
+    for i in 0..samples {
+        if seen.len() == 3 {
+            seen.remove(0);
+        }
+        seen.push(state.q);
+        let ends = inputs(drive, i, &seen);
+        see(i, state.q, state.v, ends[0]);
+        if i + 1 < samples {
+            let steps = &tape.steps[next..tape.until[i]];
+            let dt: f64 = steps.iter().map(|s| s.h).sum();
+            for step in steps {
+                walker.step(&mut state, step, dt, ends);
+            }
+            next = tape.until[i];
+        }
+    }
+}
+
+struct Again<'a, const P: usize> {
+    model: &'a Model<DualSVec64<P>>,
+    base: Base<DualSVec64<P>>,
+    z_dot: [Vec<DualSVec64<P>>; 3],
+    z: Vec<DualSVec64<P>>,
+}
+
+impl<'a, const P: usize> Again<'a, P> {
+    fn new(model: &'a Model<DualSVec64<P>>) -> Self {
+        let zero = DualSVec64::<P>::from(0.0);
+        let none = vec![zero; model.contact.states()];
+        Self {
+            model,
+            base: Base { q: zero, v: zero, z: none.clone() },
+            z_dot: std::array::from_fn(|_| none.clone()),
+            z: none,
+        }
+    }
+
+    fn step(
+        &mut self,
+        state: &mut Start<DualSVec64<P>>,
+        step: &Step,
+        dt: f64,
+        ends: [DualSVec64<P>; 2],
+    ) {
+        let (h, gh) = (step.h, GAMMA * step.h);
+        let zero = DualSVec64::<P>::from(0.0);
+        let (mut q_dot, mut v_dot) = ([zero; 3], [zero; 3]);
+        for s in 0..3 {
+            (self.base.q, self.base.v) = (state.q, state.v);
+            self.base.z.copy_from_slice(&state.z);
+            for j in 0..s {
+                self.base.q += q_dot[j] * (h * A[s][j]);
+                self.base.v += v_dot[j] * (h * A[s][j]);
+                for (z, z_dot) in self.base.z.iter_mut().zip(&self.z_dot[j]) {
+                    *z += *z_dot * (h * A[s][j]);
+                }
+            }
+            let u = ends[0] + (ends[1] - ends[0]) * (step.from + C[s] * h / dt);
+            let v = self.velocity(Share { dt: gh, u }, step.v[s], step.held[s]);
+            (q_dot[s], v_dot[s]) = (v, (v - self.base.v) / gh);
+            for (i, z) in self.z.iter().enumerate() {
+                self.z_dot[s][i] = (*z - self.base.z[i]) / gh;
+            }
+        }
+        state.q = self.base.q + q_dot[2] * gh;
+        state.v = q_dot[2];
+        state.z.copy_from_slice(&self.z);
+    }
+
+    /// The velocity of a stage with its derivatives; leaves the stage's states in `self.z`.
+    fn velocity(&mut self, share: Share<DualSVec64<P>>, v: f64, held: bool) -> DualSVec64<P> {
+        if held {
+            return DualSVec64::from(0.0);
+        }
+        let alone = DualSVec64::<P>::from_re(v).derivative(P - 1);
+        let mut balance = excess(self.model, &self.base, share, alone, &mut self.z);
+        if let Some(f_c) = self.model.contact.dry() {
+            balance += f_c * (share.dt * v.signum());
+        }
+        let slope = -part(&balance, P - 1).recip();
+        let mut by = balance.eps.unwrap_generic(nalgebra::Const::<P>, nalgebra::U1) * slope;
+        by[P - 1] = 0.0;
+        for z in &mut self.z {
+            let follows = part(z, P - 1);
+            let mut eps = z.eps.unwrap_generic(nalgebra::Const::<P>, nalgebra::U1);
+            eps += by * follows;
+            eps[P - 1] = 0.0;
+            *z = DualSVec64::new(z.re(), Derivative::some(eps));
+        }
+        DualSVec64::new(v, Derivative::some(by))
+    }
+}
+
+/// The derivative of `x` in place `i`.
+pub(crate) fn part<const P: usize>(x: &DualSVec64<P>, i: usize) -> f64 {
+    x.eps.0.map_or(0.0, |eps| eps[i])
+}

@@ -1,0 +1,280 @@
+//! From sample to sample, with steps as short as the error asks for.
+
+use super::{
+    Drive, Model,
+    stage::{Base, Share, velocity},
+    tableau::{A, C, ERROR, GAMMA},
+};
+use crate::Hold;
+use num_dual::Dual64;
+
+/// The state at the first sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Start<D> {
+    /// Displacement [m].
+    pub q: D,
+    /// Velocity [m/s].
+    pub v: D,
+    /// States of the contact.
+    pub z: Vec<D>,
+}
+
+/// What a step may be wrong by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// In the displacement [m].
+    pub q: f64,
+    /// In the velocity [m/s].
+    pub v: f64,
+    /// In the states of the contact, of their natural size [1].
+    pub z: f64,
+    /// The largest number of steps.
+    pub steps: usize,
+}
+
+/// Why there is no motion.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MotionError {
+    /// No finite state follows, however short the step.
+    #[error("no finite motion after {time} s")]
+    NotFinite {
+        /// The time [s].
+        time: f64,
+    },
+    /// More steps than allowed.
+    #[error("{steps} steps end at {time} s already")]
+    TooManySteps {
+        /// How many were taken.
+        steps: usize,
+        /// The time reached [s].
+        time: f64,
+    },
+}
+
+/// One step as it was taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Step {
+    /// Where in its sample interval it starts, as a share of it.
+    pub(super) from: f64,
+    /// Its length [s].
+    pub(super) h: f64,
+    /// The velocity of each stage [m/s].
+    pub(super) v: [f64; 3],
+    /// Whether Coulomb friction held the stage.
+    pub(super) held: [bool; 3],
+}
+
+/// The steps of a motion, to go over once more.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tape {
+    pub(super) steps: Vec<Step>,
+    /// How many steps there are up to each sample.
+    pub(super) until: Vec<usize>,
+}
+
+impl Tape {
+    /// How many steps there are.
+    pub fn steps(&self) -> usize {
+        self.steps.len()
+    }
+}
+
+/// A motion at the samples of a record.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Motion {
+    /// Displacement [m].
+    pub q: Vec<f64>,
+    /// Velocity [m/s].
+    pub v: Vec<f64>,
+    /// The input, as recorded or as the controller made it.
+    pub u: Vec<f64>,
+    /// The steps.
+    pub tape: Tape,
+}
+
+/// The shortest step, as a share of a sample interval; there the error is no longer asked for.
+const SHORTEST: f64 = 1e-6;
+
+/// Marches `model` through the samples at `time` [s] from `start`.
+pub fn march(
+    model: &Model<f64>,
+    drive: &Drive<'_>,
+    time: &[f64],
+    start: &Start<f64>,
+    tolerance: &Tolerance,
+) -> Result<Motion, MotionError> {
+    let mut walker = Walker::new(model, start, tolerance);
+    let mut motion = Motion::default();
+    for (i, t) in time.iter().enumerate() {
+        motion.q.push(walker.q);
+        motion.v.push(walker.v);
+        let ends = inputs(drive, i, &motion.q);
+        motion.u.push(ends[0]);
+        if let Some(next) = time.get(i + 1) {
+            walker.interval(*t, next - t, ends, &mut motion.tape)?;
+            motion.tape.until.push(motion.tape.steps.len());
+        }
+    }
+    Ok(motion)
+}
+
+/// The input at both ends of the interval that begins with sample `i`.
+pub(super) fn inputs<D: super::Real>(drive: &Drive<'_>, i: usize, q: &[D]) -> [D; 2] {
+    match drive {
+        Drive::Recorded { values, hold: Hold::ZeroOrder } => [D::from(values[i]); 2],
+        Drive::Recorded { values, hold: Hold::Linear } => {
+            [D::from(values[i]), D::from(values[(i + 1).min(values.len() - 1)])]
+        }
+        Drive::Controlled(feedback) => {
+            let at = |back: usize| q[q.len() - 1 - back.min(q.len() - 1)];
+            [feedback.command(i, [at(0), at(2)]); 2]
+        }
+    }
+}
+
+struct Walker<'a> {
+    model: &'a Model<f64>,
+    probe: Model<Dual64>,
+    tolerance: &'a Tolerance,
+    q: f64,
+    v: f64,
+    z: Vec<f64>,
+    h: f64,
+    /// Derivatives of the states of the contact in the three stages, and scratch.
+    z_dot: [Vec<f64>; 3],
+    z_stage: Vec<f64>,
+    base: Base<Dual64>,
+    z_probe: Vec<Dual64>,
+}
+
+/// What a step leads to.
+struct Attempt {
+    step: Step,
+    q: f64,
+    v: f64,
+    error: f64,
+}
+
+impl<'a> Walker<'a> {
+    fn new(model: &'a Model<f64>, start: &Start<f64>, tolerance: &'a Tolerance) -> Self {
+        let n = model.contact.states();
+        let none = vec![Dual64::from(0.0); n];
+        Self {
+            model,
+            probe: model.map(Dual64::from),
+            tolerance,
+            q: start.q,
+            v: start.v,
+            z: start.z.clone(),
+            h: f64::INFINITY,
+            z_dot: std::array::from_fn(|_| vec![0.0; n]),
+            z_stage: vec![0.0; n],
+            base: Base { q: Dual64::from(0.0), v: Dual64::from(0.0), z: none.clone() },
+            z_probe: none,
+        }
+    }
+
+    /// Goes through one interval of length `dt` [s] from the time `t`, with the input at its two `ends`.
+    fn interval(
+        &mut self,
+        t: f64,
+        dt: f64,
+        ends: [f64; 2],
+        tape: &mut Tape,
+    ) -> Result<(), MotionError> {
+        let mut from = 0.0;
+        while from < dt {
+            let left = dt - from;
+            let mut h = match self.h {
+                h if h >= left => left,
+                h if 2.0 * h > left => 0.5 * left,
+                h => h,
+            };
+            loop {
+                let attempt = self.attempt([from, h, dt], ends);
+                let enough = attempt.as_ref().is_some_and(|a| a.error <= 1.0);
+                let shortest = h <= SHORTEST * dt;
+                let taken = attempt.as_ref().is_some_and(|a| a.error.is_finite()) && shortest;
+                let grows = attempt.as_ref().map_or(0.2, |a| growth(a.error));
+                match attempt {
+                    Some(attempt) if enough || taken => {
+                        self.take(attempt, tape);
+                        self.h = h * grows;
+                        break;
+                    }
+                    _ if shortest => return Err(MotionError::NotFinite { time: t + from }),
+                    _ => h *= grows.min(0.5),
+                }
+            }
+            if tape.steps.len() > self.tolerance.steps {
+                return Err(MotionError::TooManySteps { steps: tape.steps.len(), time: t + from });
+            }
+            from = if h >= left { dt } else { from + h };
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, attempt: Attempt, tape: &mut Tape) {
+        (self.q, self.v) = (attempt.q, attempt.v);
+        self.z.copy_from_slice(&self.z_stage);
+        tape.steps.push(attempt.step);
+    }
+
+    /// One step of length `h` from `from` in an interval of length `dt`; none if a stage has no velocity.
+    fn attempt(&mut self, [from, h, dt]: [f64; 3], ends: [f64; 2]) -> Option<Attempt> {
+        let gh = GAMMA * h;
+        let mut step = Step { from: from / dt, h, v: [0.0; 3], held: [false; 3] };
+        let (mut v_dot, mut v, mut q) = ([0.0; 3], self.v, self.q);
+        for s in 0..3 {
+            let mut base = [self.q, self.v];
+            for j in 0..s {
+                base[0] += h * A[s][j] * step.v[j];
+                base[1] += h * A[s][j] * v_dot[j];
+            }
+            for (i, z) in self.z.iter().enumerate() {
+                let mut sum = *z;
+                for (a, z_dot) in A[s].iter().zip(&self.z_dot).take(s) {
+                    sum += h * a * z_dot[i];
+                }
+                self.base.z[i] = Dual64::from(sum);
+            }
+            (self.base.q, self.base.v) = (Dual64::from(base[0]), Dual64::from(base[1]));
+            let u = ends[0] + (ends[1] - ends[0]) * ((from + C[s] * h) / dt);
+            let share = Share { dt: gh, u: Dual64::from(u) };
+            let (root, held) = velocity(&self.probe, &self.base, share, v, &mut self.z_probe)?;
+            v = root;
+            (step.v[s], step.held[s]) = (v, held);
+            v_dot[s] = (v - base[1]) / gh;
+            q = base[0] + gh * v;
+            self.states_of_stage(s, gh, v);
+        }
+        let error = self.error(h, [step.v, v_dot]);
+        (q.is_finite() && v.is_finite()).then_some(Attempt { step, q, v, error })
+    }
+
+    fn states_of_stage(&mut self, s: usize, gh: f64, v: f64) {
+        if self.z.is_empty() {
+            return;
+        }
+        let base: Vec<f64> = self.base.z.iter().map(|z| z.re).collect();
+        self.model.contact.stage(&base, gh, v, &mut self.z_stage);
+        for (i, z) in self.z_stage.iter().enumerate() {
+            self.z_dot[s][i] = (z - base[i]) / gh;
+        }
+    }
+
+    /// The estimated error of a step, of what is allowed.
+    fn error(&self, h: f64, [q_dot, v_dot]: [[f64; 3]; 2]) -> f64 {
+        let weighed = |rates: [f64; 3]| h * (0..3).map(|s| ERROR[s] * rates[s]).sum::<f64>().abs();
+        let mut worst = (weighed(q_dot) / self.tolerance.q).max(weighed(v_dot) / self.tolerance.v);
+        let size = self.tolerance.z * self.model.contact.scale();
+        for i in 0..self.z.len() {
+            worst = worst.max(weighed(std::array::from_fn(|s| self.z_dot[s][i])) / size);
+        }
+        worst
+    }
+}
+
+fn growth(error: f64) -> f64 {
+    if error.is_finite() { (0.9 * error.powf(-1.0 / 3.0)).clamp(0.2, 4.0) } else { 0.2 }
+}

@@ -1,0 +1,106 @@
+//! One stage: the velocity for which force and momentum balance.
+
+use super::{Model, Real};
+use num_dual::{Dual64, DualStruct};
+
+/// Where a stage starts from: the states it would have if nothing happened in its own share of the step.
+#[derive(Debug, Clone)]
+pub(super) struct Base<D> {
+    /// Displacement [m].
+    pub(super) q: D,
+    /// Velocity [m/s].
+    pub(super) v: D,
+    /// States of the contact.
+    pub(super) z: Vec<D>,
+}
+
+/// The stage's share of the step [s] and the input in it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Share<D> {
+    /// γh [s].
+    pub(super) dt: f64,
+    /// The input at the stage's time.
+    pub(super) u: D,
+}
+
+/// The momentum [N·s] that is left over at the velocity `v`: M(v − v_b) − γh (T − F); writes the contact's
+/// states. The jump of Coulomb friction is not in it.
+pub(super) fn excess<D: Real>(
+    model: &Model<D>,
+    base: &Base<D>,
+    share: Share<D>,
+    v: D,
+    z: &mut [D],
+) -> D {
+    let friction = model.contact.stage(&base.z, share.dt, v, z);
+    let force = model.drive(share.u, base.q + v * share.dt, v) - friction;
+    model.balance.mass * (v - base.v) - force * share.dt
+}
+
+/// The velocity of a stage [m/s], and whether Coulomb friction holds it; none if there is no finite one.
+pub(super) fn velocity(
+    model: &Model<Dual64>,
+    base: &Base<Dual64>,
+    share: Share<Dual64>,
+    guess: f64,
+    z: &mut [Dual64],
+) -> Option<(f64, bool)> {
+    let mut at = |v: f64, jump: f64| {
+        let g = excess(model, base, share, Dual64::from_re(v).derivative(), z);
+        (g.re + jump, g.eps)
+    };
+    let Some(f_c) = model.contact.dry() else {
+        return root(|v| at(v, 0.0), guess, None).map(|v| (v, false));
+    };
+    let (free, most) = (at(0.0, 0.0).0, share.dt * f_c.re());
+    if free.abs() <= most {
+        return Some((0.0, true));
+    }
+    // The excess grows with v, so that it vanishes on the side on which it is negative at zero.
+    let side = -free.signum();
+    let guess = if guess * side > 0.0 { guess } else { 0.0 };
+    root(|v| at(v, side * most), guess, Some(side)).map(|v| (v, false))
+}
+
+/// The step of Newton's method after which there is no other, of the velocity.
+const CLOSE: f64 = 1e-10;
+
+/// Where an increasing function vanishes, by Newton's method inside a bracket that closes.
+///
+/// LuGre's excess may fall in the Stribeck zone; then it is the root that Newton's method or the bracket
+/// meets first, and the step's error estimate that judges it.
+fn root(mut f: impl FnMut(f64) -> (f64, f64), guess: f64, side: Option<f64>) -> Option<f64> {
+    let mut low = if side.is_some_and(|s| s > 0.0) { 0.0 } else { f64::NEG_INFINITY };
+    let mut high = if side.is_some_and(|s| s < 0.0) { 0.0 } else { f64::INFINITY };
+    let mut v = guess;
+    let mut last = f64::INFINITY;
+    for _ in 0..200 {
+        let (value, slope) = f(v);
+        if !value.is_finite() || !slope.is_finite() {
+            return None;
+        }
+        if value == 0.0 {
+            return Some(v);
+        }
+        if value > 0.0 { high = v } else { low = v }
+        let step = -value / slope;
+        let mut next = v + step;
+        let inside = next > low && next < high;
+        if !inside || (step.abs() > 0.5 * last && high - low < f64::INFINITY) {
+            if high - low == f64::INFINITY {
+                // Away from the bracket's end, further each time.
+                let away = 2.0 * (v - guess).abs() + step.abs().min(1e150) + f64::MIN_POSITIVE;
+                next = v - value.signum() * away;
+            } else {
+                next = 0.5 * (low + high);
+            }
+        }
+        // A Newton step of a ten-thousand-millionth leaves an error of its square.
+        if (next - v).abs() <= CLOSE * v.abs() || next == v {
+            return Some(next);
+        }
+        last = (next - v).abs();
+        v = next;
+    }
+    Some(v)
+}
