@@ -22,6 +22,7 @@ mod tableau;
 pub use contact::Contact;
 pub use drive::{Drive, Feedback};
 pub use plant::{Balance, Model};
+pub(crate) use replay::part;
 pub use replay::replay;
 pub use run::{Motion, MotionError, Start, Tape, Tolerance, march};
 

@@ -36,8 +36,10 @@ impl<D: Real> Model<D> {
     /// The force [N] on the mass, all but the friction of the contact, at the input `u`.
     pub fn drive(&self, u: D, q: D, v: D) -> D {
         let b = &self.balance;
-        let mut force =
-            b.gain * u + b.constant - b.stiffness * q - (b.damping + self.sigma_2) * v - self.offset;
+        let mut force = b.gain * u + b.constant
+            - b.stiffness * q
+            - (b.damping + self.sigma_2) * v
+            - self.offset;
         if b.gravity.re() != 0.0 {
             force -= b.gravity * q.sin();
         }

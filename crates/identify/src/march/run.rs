@@ -77,6 +77,11 @@ impl Tape {
     pub fn steps(&self) -> usize {
         self.steps.len()
     }
+
+    /// How many samples the motion has; none if it did not get through.
+    pub fn samples(&self) -> usize {
+        if self.steps.is_empty() { 0 } else { self.until.len() + 1 }
+    }
 }
 
 /// A motion at the samples of a record.

@@ -82,7 +82,11 @@ fn root(mut f: impl FnMut(f64) -> (f64, f64), guess: f64, side: Option<f64>) -> 
         if value == 0.0 {
             return Some(v);
         }
-        if value > 0.0 { high = v } else { low = v }
+        if value > 0.0 {
+            high = v
+        } else {
+            low = v
+        }
         let step = -value / slope;
         let mut next = v + step;
         let inside = next > low && next < high;

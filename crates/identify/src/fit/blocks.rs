@@ -1,0 +1,37 @@
+//! How a record is cut: into windows that are simulated apart, for training and for judging.
+
+use super::{data::Data, window::Window};
+
+/// The length of a block [s] that design and discovery have.
+const BLOCK: f64 = 3.0;
+
+/// At least so many blocks, however short the record.
+const LEAST: usize = 8;
+
+/// All samples as one window.
+pub(super) fn whole(data: &Data) -> Vec<Window> {
+    vec![Window::new(data, 0, data.time.len())]
+}
+
+/// Windows of `length` [s], or of 3 s, or an eighth of the record if that is less.
+pub(super) fn blocks(data: &Data, length: Option<f64>) -> Vec<Window> {
+    let n = data.time.len();
+    let duration = data.time[n - 1] - data.time[0];
+    let length = length.unwrap_or_else(|| BLOCK.min(duration / LEAST as f64));
+    let count = ((duration / length).round()).max(1.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below n")]
+    let cut = |k: usize| ((n as f64) * k as f64 / count).round() as usize;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below n")]
+    let count = (count as usize).clamp(1, n / 4 + 1);
+    (0..count)
+        .map(|k| (cut(k).min(n), cut(k + 1).min(n)))
+        .filter(|(first, end)| end > first)
+        .map(|(first, end)| Window::new(data, first, end))
+        .collect()
+}
+
+/// Every second window for training, the others for judging.
+pub(super) fn split(windows: &[Window]) -> (Vec<Window>, Vec<Window>) {
+    let every = |odd: usize| windows.iter().skip(odd).step_by(2).cloned().collect();
+    (every(0), every(1))
+}

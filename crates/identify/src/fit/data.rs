@@ -1,0 +1,101 @@
+//! A record as the fit needs it: what drives the plant, what was seen, and how noisy that is.
+
+use crate::{Hold, Rig};
+
+/// What was seen of one quantity, and its noise.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seen {
+    /// Its name.
+    pub name: String,
+    /// One value a sample, in SI units.
+    pub values: Vec<f64>,
+    /// Standard deviation of its noise, in the same unit.
+    pub noise: f64,
+    /// Its largest less its smallest value.
+    pub span: f64,
+}
+
+impl Seen {
+    /// With the noise that the values themselves show, at least that of the `quantum` (0 if unknown).
+    pub fn new(name: &str, values: Vec<f64>, quantum: f64) -> Self {
+        let (low, high) = values
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+        let span = if values.is_empty() { 0.0 } else { high - low };
+        let noise = noise(&values).max(quantum / 12.0_f64.sqrt()).max(1e-9 * span);
+        Self { name: name.to_owned(), values, noise, span }
+    }
+}
+
+/// The standard deviation of white noise on a smooth curve, from the median size of its third differences.
+///
+/// var Δ³ = 20 var. The median does not mind a few jumps; a curve that bends within three samples does count.
+pub fn noise(values: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> =
+        values.windows(4).map(|w| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs()).collect();
+    if sizes.is_empty() {
+        return 0.0;
+    }
+    let middle = sizes.len() / 2;
+    let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+    // The median size of a normal variable is 0.6745 of its standard deviation.
+    *median / (0.674_489_750_196_082 * 20.0_f64.sqrt())
+}
+
+/// A record of a driven plant, or of an imposed motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Data {
+    /// Times of the samples [s].
+    pub time: Vec<f64>,
+    /// What drives the plant, in the unit of its input; the displacement if the motion is imposed.
+    pub input: Vec<f64>,
+    /// What the input does between the samples.
+    pub hold: Hold,
+    /// The displacement [m] or [rad]; none if the motion is imposed.
+    pub displacement: Option<Seen>,
+    /// The velocity [m/s] or [rad/s], if it was measured.
+    pub velocity: Option<Seen>,
+    /// The friction force [N] or [N·m], if the motion is imposed.
+    pub force: Option<Seen>,
+    /// The two load cells of a drum [N].
+    pub loads: Option<[Seen; 2]>,
+    /// The controller's reference [m], and what was added to its command; empty if not recorded.
+    pub reference: Vec<f64>,
+    /// What was added to the controller's command.
+    pub added: Vec<f64>,
+}
+
+impl Data {
+    /// The largest speed [m/s], as measured or from the displacement over a few samples.
+    pub fn speed(&self) -> f64 {
+        let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        if let Some(velocity) = &self.velocity {
+            return largest(&velocity.values);
+        }
+        let Some(seen) = &self.displacement else { return 0.0 };
+        let far = 10.min(seen.values.len().saturating_sub(1));
+        let speeds = (far..seen.values.len())
+            .map(|i| (seen.values[i] - seen.values[i - far]) / (self.time[i] - self.time[i - far]));
+        largest(&speeds.collect::<Vec<f64>>())
+    }
+
+    /// The size of what drives the plant [N], in which forces that are nominally zero are measured.
+    pub fn force(&self, rig: &Rig) -> f64 {
+        let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        if let Some(force) = &self.force {
+            return largest(&force.values).max(f64::MIN_POSITIVE);
+        }
+        let gain = super::binding::model::<f64>(rig, &|_| None).balance.gain;
+        (gain * largest(&self.input)).abs().max(f64::MIN_POSITIVE)
+    }
+
+    /// The usual time from sample to sample [s].
+    pub fn sample_time(&self) -> f64 {
+        let mut steps: Vec<f64> = self.time.windows(2).map(|w| w[1] - w[0]).collect();
+        if steps.is_empty() {
+            return f64::NAN;
+        }
+        let middle = steps.len() / 2;
+        *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+    }
+}

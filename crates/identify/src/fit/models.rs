@@ -1,0 +1,177 @@
+//! The friction models against one another, on blocks that were not fitted.
+
+use super::{
+    Data, Options, binding, blocks, problem::Problem, search::End, starts, window::Window,
+};
+use crate::Rig;
+use duhem::Parameter;
+use rayon::prelude::*;
+
+/// A friction model, fitted to every second block and judged on the others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    /// The friction model; Maxwell-slip with the number of its elements.
+    pub name: String,
+    /// The root mean square of the residuals on the blocks not fitted, of the channels' noise [1].
+    pub held_out_error: f64,
+    /// The same on the blocks it was fitted to.
+    pub trained_error: f64,
+    /// How many parameters were free.
+    pub free: usize,
+    /// The rig with this friction, fitted.
+    pub rig: Rig,
+}
+
+/// The numbers of Maxwell-slip elements that are tried.
+const ELEMENTS: [usize; 4] = [1, 2, 4, 8];
+
+/// The rigs with each friction model, started from what `rig` says of its own.
+pub fn candidates(rig: &Rig) -> Vec<(String, Rig)> {
+    let (f_c, stiffness) = (force(rig), stiffness(rig));
+    let viscous = binding::value(rig, "sigma_2").unwrap_or(0.0);
+    let with = |name: &str, parameters: Vec<(&str, Parameter)>, sigma_2: f64, free: &[&str]| {
+        let mut rig = rig.clone();
+        rig.friction.name = name.to_owned();
+        rig.friction.parameters = parameters.into_iter().collect();
+        rig.friction.sigma_2 = sigma_2;
+        let ours = ["f_c", "f_s", "v_s", "sigma", "gamma", "sigma_0", "sigma_1", "sigma_2"];
+        rig.free.retain(|f| {
+            !ours.contains(&f.as_str()) && !f.starts_with(['k', 'd']) || f == "k_1" || f == "k_2"
+        });
+        rig.free.extend(free.iter().map(|f| (*f).to_owned()));
+        rig
+    };
+    let number = Parameter::Scalar;
+    let coulomb = || vec![("f_c", number(f_c))];
+    let mut all = vec![
+        ("coulomb".to_owned(), with("coulomb", coulomb(), 0.0, &["f_c"])),
+        ("coulomb + viscous".to_owned(), with("coulomb", coulomb(), viscous, &["f_c", "sigma_2"])),
+        (
+            "dahl".to_owned(),
+            with(
+                "dahl",
+                vec![("f_c", number(f_c)), ("sigma", number(stiffness)), ("gamma", number(1.0))],
+                viscous,
+                &["f_c", "sigma", "sigma_2"],
+            ),
+        ),
+        ("lugre".to_owned(), lugre(rig, f_c, stiffness, &with)),
+    ];
+    for count in ELEMENTS {
+        let (k, delta) = elements(count, f_c, stiffness);
+        let lists = vec![("k", Parameter::List(k)), ("delta", Parameter::List(delta))];
+        let rig = with("maxwell-slip", lists, viscous, &["k", "delta", "sigma_2"]);
+        all.push((format!("maxwell-slip, N = {count}"), rig));
+    }
+    all
+}
+
+fn lugre(
+    rig: &Rig,
+    f_c: f64,
+    stiffness: f64,
+    with: &dyn Fn(&str, Vec<(&str, Parameter)>, f64, &[&str]) -> Rig,
+) -> Rig {
+    let or = |key: &str, other: f64| {
+        Parameter::Scalar(binding::value(rig, key).filter(|v| *v > 0.0).unwrap_or(other))
+    };
+    let viscous = binding::value(rig, "sigma_2").unwrap_or(0.0);
+    let keys = ["f_c", "f_s", "v_s", "sigma_0", "sigma_1", "sigma_2"];
+    let parameters = vec![
+        ("f_c", Parameter::Scalar(f_c)),
+        ("f_s", or("f_s", 1.2 * f_c)),
+        ("v_s", or("v_s", 10.0 * f_c / stiffness)),
+        ("sigma_0", Parameter::Scalar(stiffness)),
+        ("sigma_1", or("sigma_1", stiffness.sqrt())),
+        ("sigma_2", Parameter::Scalar(viscous)),
+    ];
+    with("lugre", parameters, 0.0, &keys)
+}
+
+/// The largest force of the friction of `rig` in slow sliding [N].
+fn force(rig: &Rig) -> f64 {
+    match (rig.friction.parameters.0.get("k"), rig.friction.parameters.0.get("delta")) {
+        (Some(Parameter::List(k)), Some(Parameter::List(delta))) => {
+            k.iter().zip(delta).map(|(k, d)| k * d).sum()
+        }
+        _ => binding::value(rig, "f_c").filter(|f| *f > 0.0).unwrap_or(1.0),
+    }
+}
+
+/// The stiffness of the contact of `rig` before it slides [N/m].
+fn stiffness(rig: &Rig) -> f64 {
+    if let Some(Parameter::List(k)) = rig.friction.parameters.0.get("k") {
+        return k.iter().sum();
+    }
+    let own = ["sigma_0", "sigma"].iter().find_map(|key| binding::value(rig, key));
+    own.filter(|s| *s > 0.0).unwrap_or(1e3 * force(rig))
+}
+
+/// `count` elements that together hold `force` [N] and begin with `stiffness` [N/m]: equal stiffnesses, and
+/// deadbands spread evenly about their mean.
+fn elements(count: usize, force: f64, stiffness: f64) -> (Vec<f64>, Vec<f64>) {
+    let n = count as f64;
+    let mean = force / stiffness;
+    let delta = (0..count).map(|i| mean * 2.0 * (i as f64 + 0.5) / n).collect();
+    (vec![stiffness / n; count], delta)
+}
+
+/// Every model fitted to every second block of the record and judged on the others, the best first; of
+/// Maxwell-slip only the number of elements that is best.
+pub(super) fn compare(rig: &Rig, data: &Data, options: &Options) -> Vec<Candidate> {
+    let windows = blocks::blocks(data, options.window);
+    let (train, judge) = blocks::split(&windows);
+    if judge.is_empty() {
+        return Vec::new();
+    }
+    let mut all: Vec<Candidate> = candidates(rig)
+        .into_par_iter()
+        .filter_map(|(name, rig)| judged(name, rig, data, (&train, &judge)))
+        .collect();
+    all.sort_by(|a, b| a.held_out_error.total_cmp(&b.held_out_error));
+    let mut seen = false;
+    all.retain(|c| !c.name.starts_with("maxwell-slip") || !std::mem::replace(&mut seen, true));
+    all
+}
+
+fn judged(
+    name: String,
+    rig: Rig,
+    data: &Data,
+    (train, judge): (&[Window], &[Window]),
+) -> Option<Candidate> {
+    let base = super::problem(&rig, data).ok()?;
+    let problem = Problem { windows: train.to_vec(), closed_loop: false, ..base.clone() };
+    let options = Options { starts: 2, ..Options::default() };
+    let found = starts::best(&problem, &options, None);
+    if found.end == End::NoMotion {
+        return None;
+    }
+    let mean = |windows: &[Window], x: &[f64]| {
+        let problem = Problem { windows: windows.to_vec(), closed_loop: false, ..base.clone() };
+        let pieces = settled(&problem, x);
+        let rows: usize = pieces.iter().map(|p| p.residuals.len()).sum();
+        let sum: f64 = pieces.iter().flat_map(|p| &p.residuals).map(|r| r * r).sum();
+        (sum / rows.max(1) as f64).sqrt()
+    };
+    let (trained_error, held_out_error) = (mean(train, &found.x), mean(judge, &found.x));
+    let free = problem.free.len();
+    let rig = super::fitted(&problem, &found);
+    Some(Candidate { name, held_out_error, trained_error, free, rig })
+}
+
+/// The windows at `x`, their starts fitted.
+fn settled(problem: &Problem<'_>, x: &[f64]) -> Vec<super::problem::Piece> {
+    let mut pieces = problem.pieces(x, None);
+    for _ in 0..2 {
+        let leads: Vec<_> = problem.all_slopes(x, &pieces).into_iter().map(|s| s.lead).collect();
+        let next = problem.pieces(x, Some((x, &leads)));
+        let sum = |p: &super::problem::Piece| p.residuals.iter().map(|r| r * r).sum::<f64>();
+        for (piece, next) in pieces.iter_mut().zip(next) {
+            if sum(&next) < sum(piece) {
+                *piece = next;
+            }
+        }
+    }
+    pieces
+}

@@ -1,0 +1,402 @@
+//! The misfit of a model to a record, and how it changes with every free parameter.
+
+use super::{
+    binding::{Free, Scale, given, model},
+    data::Data,
+    imposed::forces,
+    window::Window,
+};
+use crate::{
+    Rig,
+    march::{Drive, Feedback, Model, Motion, Real, Start, Tape, Tolerance, march, part, replay},
+};
+use nalgebra::DMatrix;
+use num_dual::DualSVec64;
+use rayon::prelude::*;
+
+/// A record, a rig and what of it is free: the least-squares problem of the fit.
+///
+/// The state at each window's start is unknown, too. It follows the parameters along the straight line that
+/// the last Jacobian gave, and its part of the misfit is projected out of the Jacobian: so the solver sees
+/// the parameters alone, and takes the steps it would take if it saw both.
+#[derive(Debug, Clone)]
+pub struct Problem<'a> {
+    /// The rig.
+    pub rig: &'a Rig,
+    /// The record.
+    pub data: &'a Data,
+    /// What is free.
+    pub free: Vec<Free>,
+    /// The windows that are simulated.
+    pub windows: Vec<Window>,
+    /// Whether the controller is simulated, too.
+    pub closed_loop: bool,
+    /// What a residual of each channel is divided by [its unit]: displacement, velocity, input, force, loads.
+    pub weights: Weights,
+    /// The steps' tolerance, of the spans of displacement and velocity [1].
+    pub tolerance: f64,
+}
+
+/// The standard deviation that a residual of each channel is divided by, in the channel's unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weights {
+    /// Of the displacement.
+    pub displacement: f64,
+    /// Of the velocity.
+    pub velocity: f64,
+    /// Of the input that the controller makes.
+    pub input: f64,
+    /// Of the force under an imposed motion.
+    pub force: f64,
+    /// Of the two load cells.
+    pub loads: [f64; 2],
+}
+
+/// One window, simulated.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// Displacement [m] and velocity [m/s] at its start.
+    pub start: [f64; 2],
+    /// Its motion; the force [N] in place of the displacement if the motion is imposed.
+    pub motion: Motion,
+    /// Weighed residuals, sample by sample and channel by channel, then those of the start.
+    pub residuals: Vec<f64>,
+}
+
+/// How the start of a window follows the parameters: from where, by how much more, by how much per variable.
+#[derive(Debug, Clone)]
+pub(super) struct Lead {
+    pub(super) start: [f64; 2],
+    pub(super) by: DMatrix<f64>,
+}
+
+/// A window's derivatives, its start projected out.
+pub(super) struct Slopes {
+    pub(super) jacobian: DMatrix<f64>,
+    pub(super) lead: Lead,
+}
+
+/// How well the time of a sample is known, in sampling times.
+const TIMING: f64 = 0.1;
+
+/// The residual of a sample without a motion, in standard deviations: far worse than any motion's.
+const NO_MOTION: f64 = 1e4;
+
+impl Problem<'_> {
+    /// The number of residuals of a window.
+    fn rows(&self, window: &Window) -> usize {
+        window.len() * self.channels() + if self.data.force.is_some() { 0 } else { 2 }
+    }
+
+    /// How many residuals a sample has.
+    pub fn channels(&self) -> usize {
+        if self.data.force.is_some() {
+            return 1;
+        }
+        1 + usize::from(self.data.velocity.is_some()) + usize::from(self.closed_loop)
+    }
+
+    /// The value of free parameter `i` [its unit] at the variables `x`.
+    pub fn value(&self, i: usize, x: &[f64]) -> f64 {
+        let own = self.free[i].value(x[i]);
+        if !matches!(self.free[i].scale, Scale::Above(_)) {
+            return own;
+        }
+        let below = self.free.iter().position(|f| f.name == "f_c");
+        own + below.map_or_else(|| given(self.rig, "f_c"), |j| self.free[j].value(x[j]))
+    }
+
+    /// The model at the variables `x`.
+    pub fn model(&self, x: &[f64]) -> Model<f64> {
+        self.model_of(&|i| self.free[i].value(x[i]))
+    }
+
+    /// The model with derivatives by the variables from `first` on in its first places.
+    fn model_with<const P: usize>(&self, x: &[f64], first: usize) -> Model<DualSVec64<P>> {
+        self.model_of(&|i| {
+            let value = self.free[i].value(x[i]);
+            match i.checked_sub(first) {
+                Some(place) if place < P - 1 => {
+                    let mut number = DualSVec64::from_re(value).derivative(place);
+                    number.eps *= self.free[i].slope(value);
+                    number
+                }
+                _ => DualSVec64::from(value),
+            }
+        })
+    }
+
+    fn model_of<D: Real>(&self, value: &dyn Fn(usize) -> D) -> Model<D> {
+        let find = |name: &str| self.free.iter().position(|f| f.name == name);
+        model(self.rig, &|name| {
+            let i = find(name)?;
+            if !matches!(self.free[i].scale, Scale::Above(_)) {
+                return Some(value(i));
+            }
+            let below = find("f_c").map_or_else(|| D::from(given(self.rig, "f_c")), value);
+            Some(below + value(i))
+        })
+    }
+
+    fn drive(&self, window: &Window) -> Drive<'_> {
+        let range = window.first..window.end;
+        match (&self.rig.controller, self.closed_loop) {
+            (Some(c), true) => Drive::Controlled(Feedback {
+                kp: c.kp,
+                kv: c.kv,
+                limit: c.limit,
+                sample_time: c.sample_time,
+                reference: &self.data.reference[range.clone()],
+                added: self.data.added.get(range).unwrap_or(&[]),
+            }),
+            _ => Drive::Recorded { values: &self.data.input[range], hold: self.data.hold },
+        }
+    }
+
+    /// The state of the contact at a window's start follows from how it came there.
+    fn state<D: Real>(&self, model: &Model<D>, window: &Window, q: D, v: D) -> Start<D> {
+        let long = window.run_up.abs() > FORGOTTEN * model.contact.memory();
+        let z = if long && window.run_up != 0.0 {
+            let along = if v.re() == 0.0 { window.run_up } else { v.re() };
+            model.contact.sliding(along)
+        } else {
+            let u = D::from(self.data.input[window.first]);
+            model.contact.holding(model.drive(u, q, v))
+        };
+        Start { q, v, z }
+    }
+
+    /// Simulates one window from `start` at the variables `x`.
+    pub fn piece(&self, x: &[f64], window: &Window, start: [f64; 2]) -> Piece {
+        let model = self.model(x);
+        let mut residuals = Vec::with_capacity(self.rows(window));
+        let range = window.first..window.end;
+        if let Some(force) = &self.data.force {
+            let mut motion = Motion::default();
+            forces(
+                &model,
+                &self.data.time[range.clone()],
+                &self.data.input[range],
+                force.values[window.first],
+                &mut |i, f| {
+                    motion.q.push(f);
+                    residuals.push((f - force.values[window.first + i]) / self.weights.force);
+                },
+            );
+            return Piece { start, motion, residuals };
+        }
+        let state = self.state(&model, window, start[0], start[1]);
+        let spans = self.tolerance();
+        let motion = march(&model, &self.drive(window), &self.data.time[range], &state, &spans);
+        let motion = motion.unwrap_or_default();
+        for i in 0..window.len() {
+            let seen = |values: &[f64]| values.get(i).copied();
+            self.sample(
+                window.first + i,
+                seen(&motion.q),
+                seen(&motion.v),
+                seen(&motion.u),
+                &mut residuals,
+            );
+        }
+        for (i, spread) in window.spread.iter().enumerate() {
+            residuals.push((start[i] - window.start[i]) / spread);
+        }
+        Piece { start, motion, residuals }
+    }
+
+    fn sample(&self, i: usize, q: Option<f64>, v: Option<f64>, u: Option<f64>, out: &mut Vec<f64>) {
+        let mut push = |value: Option<f64>, seen: f64, weight: f64| {
+            let residual = value.map_or(NO_MOTION, |value| (value - seen) / weight);
+            out.push(if residual.is_finite() { residual } else { NO_MOTION });
+        };
+        if let Some(seen) = &self.data.displacement {
+            push(q, seen.values[i], self.weights.displacement);
+        }
+        if let Some(seen) = &self.data.velocity {
+            push(v, seen.values[i], self.velocity_weight(&seen.values, i));
+        }
+        if self.closed_loop {
+            push(u, self.data.input[i], self.weights.input);
+        }
+    }
+
+    /// The standard deviation of a sample of the velocity: noise, and what it changes by in a share of a sample.
+    ///
+    /// A sample in a break-away is worth what its time is: without this a few of them would decide the fit.
+    fn velocity_weight(&self, values: &[f64], i: usize) -> f64 {
+        let (before, after) = (i.saturating_sub(1), (i + 1).min(values.len() - 1));
+        self.weights.velocity.hypot(TIMING * 0.5 * (values[after] - values[before]))
+    }
+
+    /// What a step may be wrong by.
+    fn tolerance(&self) -> Tolerance {
+        let q = self.data.displacement.as_ref().map_or(1.0, |d| d.span.max(d.noise));
+        let v = self.data.speed().max(1e-12);
+        let steps = 8 * self.data.time.len() + 10_000;
+        Tolerance { q: self.tolerance * q, v: self.tolerance * v, z: self.tolerance, steps }
+    }
+
+    /// The derivatives of a window's residuals by the variables `x`, and by its start.
+    pub(super) fn slopes(&self, x: &[f64], window: &Window, piece: &Piece) -> Slopes {
+        let columns = self.free.len() + 2;
+        let mut jacobian = DMatrix::zeros(self.rows(window), columns);
+        match columns {
+            0..=3 => self.columns::<4>(x, window, piece, &mut jacobian),
+            4..=7 => self.columns::<8>(x, window, piece, &mut jacobian),
+            8..=11 => self.columns::<12>(x, window, piece, &mut jacobian),
+            _ => self.columns::<16>(x, window, piece, &mut jacobian),
+        }
+        let n = jacobian.nrows();
+        if self.data.force.is_some() {
+            let lead = Lead { start: piece.start, by: DMatrix::zeros(2, self.free.len()) };
+            return Slopes { jacobian: jacobian.columns(0, self.free.len()).into_owned(), lead };
+        }
+        for (i, spread) in window.spread.iter().enumerate() {
+            jacobian[(n - 2 + i, self.free.len() + i)] = spread.recip();
+        }
+        let by_start = jacobian.columns(self.free.len(), 2).into_owned();
+        let by_x = jacobian.columns(0, self.free.len()).into_owned();
+        // The columns differ in size by the units of q and v; their directions are what counts.
+        let sizes = [by_start.column(0).norm(), by_start.column(1).norm()];
+        let unit = DMatrix::from_fn(n, 2, |i, j| by_start[(i, j)] / sizes[j]);
+        let qr = unit.qr();
+        let (q, r) = (qr.q(), qr.r());
+        let inverse = r.try_inverse().unwrap_or_else(|| DMatrix::zeros(2, 2));
+        let residuals = DMatrix::from_column_slice(n, 1, &piece.residuals);
+        let along = q.transpose() * &by_x;
+        let scaled = |m: DMatrix<f64>| DMatrix::from_fn(2, m.ncols(), |i, j| -m[(i, j)] / sizes[i]);
+        let more = scaled(&inverse * (q.transpose() * residuals));
+        let by = scaled(&inverse * &along);
+        let start = [piece.start[0] + more[(0, 0)], piece.start[1] + more[(1, 0)]];
+        Slopes { jacobian: by_x - q * along, lead: Lead { start, by } }
+    }
+
+    fn columns<const P: usize>(
+        &self,
+        x: &[f64],
+        window: &Window,
+        piece: &Piece,
+        jacobian: &mut DMatrix<f64>,
+    ) {
+        let mut first = 0;
+        while first < self.free.len() + 2 {
+            self.some_columns::<P>(x, window, piece, (first, jacobian));
+            first += P - 1;
+        }
+    }
+
+    /// The columns from `first` on, as many as fit.
+    fn some_columns<const P: usize>(
+        &self,
+        x: &[f64],
+        window: &Window,
+        piece: &Piece,
+        (first, jacobian): (usize, &mut DMatrix<f64>),
+    ) {
+        let model = self.model_with::<P>(x, first);
+        let range = window.first..window.end;
+        let many = (jacobian.ncols() - first).min(P - 1);
+        let mut write = |row: usize, value: &DualSVec64<P>, weight: f64| {
+            for place in 0..many {
+                jacobian[(row, first + place)] = part(value, place) / weight;
+            }
+        };
+        if let Some(force) = &self.data.force {
+            forces(
+                &model,
+                &self.data.time[range.clone()],
+                &self.data.input[range],
+                force.values[window.first],
+                &mut |i, f| {
+                    write(i, &f, self.weights.force);
+                },
+            );
+            return;
+        }
+        let seed = |value: f64, column: usize| match column.checked_sub(first) {
+            Some(place) if place < P - 1 => DualSVec64::from_re(value).derivative(place),
+            _ => DualSVec64::from(value),
+        };
+        let n = self.free.len();
+        let (q, v) = (seed(piece.start[0], n), seed(piece.start[1], n + 1));
+        let state = self.state(&model, window, q, v);
+        let channels = self.channels();
+        let tape: &Tape = &piece.motion.tape;
+        if tape.samples() != window.len() {
+            return;
+        }
+        replay(&model, &self.drive(window), tape, &state, &mut |i, q, v, u| {
+            let mut row = i * channels;
+            write(row, &q, self.weights.displacement);
+            if let Some(seen) = &self.data.velocity {
+                row += 1;
+                write(row, &v, self.velocity_weight(&seen.values, window.first + i));
+            }
+            if self.closed_loop {
+                write(row + 1, &u, self.weights.input);
+            }
+        });
+    }
+
+    /// Every window at the variables `x`, its start as `leads` have it, or as it was seen.
+    pub(super) fn pieces(&self, x: &[f64], at: Option<(&[f64], &[Lead])>) -> Vec<Piece> {
+        self.windows
+            .par_iter()
+            .enumerate()
+            .map(|(w, window)| {
+                let start = at.map_or(window.start, |(x_0, leads)| {
+                    let lead = &leads[w];
+                    let mut start = lead.start;
+                    for (i, (x, x_0)) in x.iter().zip(x_0).enumerate() {
+                        start[0] += lead.by[(0, i)] * (x - x_0);
+                        start[1] += lead.by[(1, i)] * (x - x_0);
+                    }
+                    start
+                });
+                self.piece(x, window, start)
+            })
+            .collect()
+    }
+
+    /// The derivatives of all `pieces`.
+    pub(super) fn all_slopes(&self, x: &[f64], pieces: &[Piece]) -> Vec<Slopes> {
+        self.windows.par_iter().zip(pieces).map(|(w, piece)| self.slopes(x, w, piece)).collect()
+    }
+
+    /// Weighed residuals of the load cells against the measured angle, F₁ = F₁₀ + k₁rθ and F₂ = F₂₀ − k₂rθ, and
+    /// their derivatives.
+    pub(super) fn loads(&self, x: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
+        let (Some(loads), Some(angle)) = (&self.data.loads, &self.data.displacement) else {
+            return (Vec::new(), DMatrix::zeros(0, self.free.len()));
+        };
+        let value = |name: &str| {
+            let free = self.free.iter().position(|f| f.name == name);
+            (free.map_or_else(|| self.rig.plant[name], |i| self.free[i].value(x[i])), free)
+        };
+        let r = value("radius").0;
+        let samples: Vec<usize> = self.windows.iter().flat_map(|w| w.first..w.end).collect();
+        let mut jacobian = DMatrix::zeros(2 * samples.len(), self.free.len());
+        let mut residuals = Vec::with_capacity(2 * samples.len());
+        for (cell, side) in [(0, 1.0), (1, -1.0)] {
+            let (k, k_free) = value(["k_1", "k_2"][cell]);
+            let (f, f_free) = value(["f_10", "f_20"][cell]);
+            for i in &samples {
+                let stretch = side * r * angle.values[*i];
+                let row = residuals.len();
+                residuals
+                    .push((f + k * stretch - loads[cell].values[*i]) / self.weights.loads[cell]);
+                for (free, by) in [(k_free, stretch), (f_free, 1.0)] {
+                    if let Some(j) = free {
+                        let slope = self.free[j].slope(self.free[j].value(x[j]));
+                        jacobian[(row, j)] = by * slope / self.weights.loads[cell];
+                    }
+                }
+            }
+        }
+        (residuals, jacobian)
+    }
+}
+
+/// So many times its memory a contact must have slid for its state to be that of steady sliding.
+const FORGOTTEN: f64 = 6.0;
