@@ -6,6 +6,7 @@
 //! Read first: [`Rig`], the plant, its friction and which column of a record is what; [`Recording`], the
 //! columns as channels in SI units.
 
+pub mod export;
 pub mod regression;
 pub mod rig;
 
