@@ -6,8 +6,10 @@
 //! Read first: [`Rig`], the plant, its friction and which column of a record is what; [`Recording`], the
 //! columns as channels in SI units.
 
+pub mod export;
 pub mod fit;
 pub mod march;
+pub mod regression;
 pub mod rig;
 
 pub use rig::{Channel, Controller, Effect, Friction, Hold, Rig, Shaft};
