@@ -8,4 +8,4 @@
 
 pub mod rig;
 
-pub use rig::{Channel, Controller, Effect, Friction, Hold, Rig, Shaft};
+pub use rig::{Channel, Controller, Effect, Friction, Hold, Rig, RigError, Shaft};
