@@ -6,6 +6,9 @@
 //! Read first: [`Rig`], the plant, its friction and which column of a record is what; [`Recording`], the
 //! columns as channels in SI units.
 
+pub mod doctor;
+mod recording;
 pub mod rig;
 
+pub use recording::{Columns, Recording, RecordingError};
 pub use rig::{Channel, Controller, Effect, Friction, Hold, Rig, RigError, Shaft};

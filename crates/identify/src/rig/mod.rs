@@ -9,6 +9,7 @@ pub mod units;
 mod write;
 
 pub use error::RigError;
+pub(crate) use error::quoted;
 pub use kinds::{KINDS, Kind, PlantKey, Quantity, Range};
 
 use std::collections::BTreeMap;
