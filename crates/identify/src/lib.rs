@@ -6,10 +6,13 @@
 //! Read first: [`Rig`], the plant, its friction and which column of a record is what; [`Recording`], the
 //! columns as channels in SI units.
 
+pub mod doctor;
 pub mod export;
 pub mod fit;
 pub mod march;
 pub mod regression;
 pub mod rig;
+mod recording;
 
-pub use rig::{Channel, Controller, Effect, Friction, Hold, Rig, Shaft};
+pub use recording::{Columns, Recording, RecordingError};
+pub use rig::{Channel, Controller, Effect, Friction, Hold, Rig, RigError, Shaft};

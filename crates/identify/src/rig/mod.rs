@@ -1,6 +1,21 @@
 //! The rig file: the plant, its nominal friction, what is free, and which column is which channel.
 
+mod error;
+mod kinds;
+mod parameters;
+mod parse;
+mod tables;
+pub mod units;
+mod write;
+
+pub use error::RigError;
+pub(crate) use error::quoted;
+pub use kinds::{KINDS, Kind, PlantKey, Quantity, Range};
+
 use std::collections::BTreeMap;
+
+/// The names of the effects that an `[[effect]]` table may name. There are none yet.
+pub const EFFECTS: &[&str] = &[];
 
 /// A rig, as its file declares it, in SI units.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,7 +24,7 @@ pub struct Rig {
     pub title: String,
     /// The kind of plant, a name of [`crate::rig::KINDS`].
     pub kind: &'static str,
-    /// The plant's parameters by their keys, `offset` and an axis' `gain` among them.
+    /// The plant's parameters by their keys: `offset` always, an axis' `gain` if it is driven by a voltage.
     pub plant: BTreeMap<String, f64>,
     /// Its nominal friction.
     pub friction: Friction,
@@ -30,7 +45,8 @@ pub struct Friction {
     pub name: String,
     /// The model's parameters by their keys, without the viscous one of models that have none.
     pub parameters: duhem::Parameters,
-    /// Viscous coefficient σ₂ [N·s/m] or [N·m·s/rad].
+    /// Viscous coefficient σ₂ [N·s/m] or [N·m·s/rad], added to the model's force; 0 for a model that has
+    /// a `sigma_2` among its own parameters, so that it never counts twice.
     pub sigma_2: f64,
 }
 
@@ -41,7 +57,7 @@ pub struct Channel {
     pub column: String,
     /// The unit in which it is written; SI if none is said.
     pub unit: Option<String>,
-    /// The step of an encoder or converter, in SI units, where it is known.
+    /// The step of an encoder or converter, in SI units and on the side `at`, where it is known.
     pub quantum: Option<f64>,
     /// On which side of the gear it is measured.
     pub at: Shaft,
@@ -74,7 +90,7 @@ pub enum Hold {
 pub struct Controller {
     /// Its kind: `pd`.
     pub kind: String,
-    /// Position gain k_p [1/s].
+    /// Position gain k_p [1/s]; [1/s] for a turning plant too.
     pub kp: f64,
     /// Velocity gain k_v [V·s/m].
     pub kv: f64,
