@@ -1,6 +1,6 @@
 //! The error of the records themselves.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot read its own record fails")]
+#![expect(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 #[allow(dead_code, reason = "each test file uses some of it")]
 mod common;

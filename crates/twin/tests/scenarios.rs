@@ -1,5 +1,7 @@
 //! Scenarios that make no sense are refused in words.
 
+#![expect(clippy::unwrap_used, reason = "a helper of a test fails the test")]
+
 use twin::{SCENARIOS, Scenario, scenario};
 
 /// The gearbox with one thing replaced, and what is said of it.

@@ -1,6 +1,6 @@
 //! What sensors do, and that a seed makes one record.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot read its own record fails")]
+#![expect(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 #[allow(dead_code, reason = "each test file uses some of it")]
 mod common;

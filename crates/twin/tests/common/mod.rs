@@ -1,6 +1,6 @@
 //! What the tests share.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot read its own record fails")]
+#![expect(clippy::unwrap_used, reason = "a helper of a test fails the test")]
 
 use twin::{Made, Scenario, make};
 
