@@ -16,7 +16,8 @@ pub(crate) fn read(sensor: &Sensor, truth: &[f64], seed: u64) -> Vec<f64> {
             let drawn: f64 = StandardNormal.sample(&mut stream);
             let shown = sensor.gain * value + sensor.bias + sensor.noise * drawn;
             if sensor.quantum > 0.0 {
-                (shown / sensor.quantum).round() * sensor.quantum
+                // Adding 0 makes -0 plain.
+                (shown / sensor.quantum).round() * sensor.quantum + 0.0
             } else {
                 shown
             }
