@@ -53,6 +53,8 @@ pub(crate) enum Command {
     /// Work is compared exactly, row for row. Ends with 3 if there is more of it, or if a row that was right
     /// is not any more, provided both runs are of one processor and one kind of build.
     Compare(CompareArgs),
+    /// Make a synthetic record of a rig, with its card, and its truth kept apart.
+    Record(RecordArgs),
     /// Start something new.
     New {
         /// What.
@@ -155,6 +157,31 @@ pub(crate) struct CompareArgs {
     pub(crate) markdown: bool,
     /// As JSON.
     #[arg(long, conflicts_with = "markdown")]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RecordArgs {
+    /// A scenario that has a name.
+    #[arg(conflicts_with = "scenario")]
+    pub(crate) name: Option<String>,
+    /// A scenario in a TOML file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) scenario: Option<PathBuf>,
+    /// The record, as .parquet or .csv; its card goes beside it, as .toml.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// What it was made from; truth/ beside the record if not given.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) truth: Option<PathBuf>,
+    /// Seed of the noise and of random drives.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(..1 << 62))]
+    pub(crate) seed: u64,
+    /// List the scenarios that have a name.
+    #[arg(long, conflicts_with_all = ["name", "scenario", "out", "truth"])]
+    pub(crate) list: bool,
+    /// As JSON.
+    #[arg(long)]
     pub(crate) json: bool,
 }
 

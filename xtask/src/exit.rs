@@ -3,6 +3,7 @@
 use experiment::ExperimentError;
 use record::RecordError;
 use report::ReportError;
+use twin::TwinError;
 
 /// The documented exit codes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,5 +70,17 @@ impl From<ExperimentError> for Failure {
 impl From<ReportError> for Failure {
     fn from(error: ReportError) -> Self {
         Self { exit: Exit::Input, error: error.into() }
+    }
+}
+
+impl From<TwinError> for Failure {
+    fn from(error: TwinError) -> Self {
+        let exit = match error {
+            TwinError::Name { .. } => Exit::Usage,
+            TwinError::Syntax(_) | TwinError::Value { .. } | TwinError::Motion { .. } => {
+                Exit::Input
+            }
+        };
+        Self { exit, error: error.into() }
     }
 }

@@ -13,6 +13,7 @@ mod reproduce;
 mod root;
 mod saved;
 mod screen;
+mod synthetic;
 mod tidy;
 
 use clap::Parser;
@@ -46,6 +47,7 @@ fn run(cli: &Cli) -> Result<Exit, Failure> {
         Command::Claims { json, .. } => claims::claims(&root, *json),
         Command::Bench(arguments) => bench::bench(&root, arguments),
         Command::Compare(arguments) => compare::compare(&root, arguments),
+        Command::Record(arguments) => synthetic::record(&root, arguments),
         Command::New { what } => new::new(&root, what),
         Command::Tidy { equations: true, .. } => tidy::equations(&root),
         Command::Tidy { json, .. } => tidy::tidy(&root, *json),

@@ -10,9 +10,9 @@ pub mod doctor;
 pub mod export;
 pub mod fit;
 pub mod march;
+mod recording;
 pub mod regression;
 pub mod rig;
-mod recording;
 
 pub use recording::{Columns, Recording, RecordingError};
 pub use rig::{Channel, Controller, Effect, Friction, Hold, Rig, RigError, Shaft};

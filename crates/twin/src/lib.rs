@@ -2,3 +2,33 @@
 //!
 //! **Invariant**: knows no other crate of the project, so that no equation, no solver and no mistake is
 //! shared with those who analyse its records.
+//!
+//! The equations are written in other variables than the paper's: a rate-independent model is a function of the
+//! displacement since the last reversal, LuGre is carried by the momentum `p = M v + σ₁ z`, in which ż does not
+//! appear, and Coulomb's law is the set-valued one, stuck or sliding.
+//! The integrator is a Rosenbrock method of order 4 whose steps end at every sample, every corner of the drive
+//! and every reversal.
+//!
+//! Read first: [`Scenario`] (what is made), [`make`] (makes it), [`Made`] (the record and its truth).
+
+mod catalogue;
+mod check;
+mod contact;
+mod driven;
+mod error;
+mod hidden;
+mod imposed;
+mod make;
+mod plant;
+mod rosenbrock;
+mod scenario;
+mod sensor;
+mod signal;
+mod units;
+
+pub use catalogue::{SCENARIOS, scenario};
+pub use error::TwinError;
+pub use hidden::Hidden;
+pub use make::{Column, Made, Truth, make, make_hidden};
+pub use scenario::{Friction, Input, Part, PlantKind, Scenario, Sensor, Start};
+pub use units::Quantity;
