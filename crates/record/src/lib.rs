@@ -9,6 +9,7 @@
 mod error;
 mod file;
 mod rows;
+mod sheet;
 mod store;
 mod summary;
 mod table;
@@ -17,6 +18,10 @@ pub use error::RecordError;
 pub use file::write_whole;
 pub use rows::{
     AboutRow, CaseRow, ClaimRow, CurveRow, FigureRow, MeasureRow, OrderRow, PanelRow, StudyRow,
+};
+pub use sheet::{
+    CELLS, COLUMNS, Cells, ROWS, Sheet, SheetColumn, SheetError, Skipped, read_csv, read_matlab,
+    read_parquet, read_sheet, write_sheet_csv, write_sheet_parquet,
 };
 pub use store::{CaseRecord, Found, History, Key, Store, sha256};
 pub use summary::Summary;
