@@ -46,6 +46,10 @@ pub(crate) enum Command {
         #[arg(long, conflicts_with = "json")]
         markdown: bool,
     },
+    /// Say what is wrong with a record of a drive, and what it cannot tell.
+    ///
+    /// Ends with 1 if there are problems; notes are none. The record is CSV, Parquet or MATLAB 5.
+    CheckData(CheckDataArgs),
     /// Time the methods on the anchors, or run what else takes long.
     Bench(BenchArgs),
     /// Compare two saved runs of the benchmark.
@@ -70,6 +74,18 @@ pub(crate) enum Command {
         #[arg(long, conflicts_with = "json")]
         equations: bool,
     },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckDataArgs {
+    /// The record.
+    pub(crate) record: PathBuf,
+    /// The rig file that says which column is what; without, each column is examined for itself.
+    #[arg(long, value_name = "RIG")]
+    pub(crate) rig: Option<PathBuf>,
+    /// As JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

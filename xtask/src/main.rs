@@ -1,6 +1,7 @@
 //! `cargo xtask`: the only program, and the only place that prints.
 
 mod bench;
+mod check_data;
 mod claims;
 mod cli;
 mod compare;
@@ -9,6 +10,7 @@ mod list;
 mod new;
 mod output;
 mod progress;
+mod recorded;
 mod reproduce;
 mod root;
 mod saved;
@@ -45,6 +47,7 @@ fn run(cli: &Cli) -> Result<Exit, Failure> {
         Command::Show { name, json } => list::show(&root, name, *json),
         Command::Claims { markdown: true, .. } => claims::markdown(&root),
         Command::Claims { json, .. } => claims::claims(&root, *json),
+        Command::CheckData(arguments) => check_data::check_data(arguments),
         Command::Bench(arguments) => bench::bench(&root, arguments),
         Command::Compare(arguments) => compare::compare(&root, arguments),
         Command::Record(arguments) => synthetic::record(&root, arguments),
