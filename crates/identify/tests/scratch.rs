@@ -1,26 +1,64 @@
-use identify::{Recording, Rig, fit::{Data, Options, fit}};
+use identify::{
+    Recording, Rig,
+    fit::{Data, Options, fit},
+};
 use std::collections::BTreeMap;
 fn columns(name: &str) -> BTreeMap<String, Vec<f64>> {
     let mut r = csv::Reader::from_path(name).unwrap();
     let h: Vec<String> = r.headers().unwrap().iter().map(str::to_owned).collect();
     let mut c = vec![vec![]; h.len()];
-    for row in r.records() { for (i, f) in row.unwrap().iter().enumerate() { c[i].push(f.parse().unwrap()); } }
+    for row in r.records() {
+        for (i, f) in row.unwrap().iter().enumerate() {
+            c[i].push(f.parse().unwrap());
+        }
+    }
     h.into_iter().zip(c).collect()
 }
 #[test]
 fn emps() {
     let rig = Rig::parse(&std::fs::read_to_string(std::env::var("RIG").unwrap()).unwrap()).unwrap();
     let c = columns(&std::env::var("REC").unwrap());
-    let rec = Recording::new(&rig, &|n| c.get(n).map(Vec::as_slice).ok_or_else(|| n.to_owned())).unwrap();
+    let rec =
+        Recording::new(&rig, &|n| c.get(n).map(Vec::as_slice).ok_or_else(|| n.to_owned())).unwrap();
     let data = Data::of(&rig, &rec);
     let t = std::time::Instant::now();
     for closed in [true, false] {
         let mut rig = rig.clone();
-        if !closed { rig.controller = None; }
-        let fit = fit(&rig, &data, &Options { models: !closed, window: std::env::var("W").ok().map(|w| w.parse().unwrap()), ..Options::default() }).unwrap();
-        println!("{:?} {:?} {} {:?} {:?} s2 {} nb {} step {}", t.elapsed(), fit.way, fit.windows, fit.end, fit.simulations, fit.variance, fit.neighbours, fit.step_error);
-        for p in &fit.parameters { println!("{:8} {:.5} -> {:.5} +- {:.5} {:?} boot {:?}", p.name, p.given, p.found, p.standard_error, p.interval, p.bootstrap); }
-        for g in &fit.gap { println!("{g:?}"); }
-        for m in &fit.models { println!("{} {} {} {}", m.name, m.free, m.trained_error, m.held_out_error); }
+        if !closed {
+            rig.controller = None;
+        }
+        let fit = fit(
+            &rig,
+            &data,
+            &Options {
+                models: !closed,
+                window: std::env::var("W").ok().map(|w| w.parse().unwrap()),
+                ..Options::default()
+            },
+        )
+        .unwrap();
+        println!(
+            "{:?} {:?} {} {:?} {:?} s2 {} nb {} step {}",
+            t.elapsed(),
+            fit.way,
+            fit.windows,
+            fit.end,
+            fit.simulations,
+            fit.variance,
+            fit.neighbours,
+            fit.step_error
+        );
+        for p in &fit.parameters {
+            println!(
+                "{:8} {:.5} -> {:.5} +- {:.5} {:?} boot {:?}",
+                p.name, p.given, p.found, p.standard_error, p.interval, p.bootstrap
+            );
+        }
+        for g in &fit.gap {
+            println!("{g:?}");
+        }
+        for m in &fit.models {
+            println!("{} {} {} {}", m.name, m.free, m.trained_error, m.held_out_error);
+        }
     }
 }

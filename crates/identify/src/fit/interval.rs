@@ -106,7 +106,7 @@ fn scores(problem: &Problem<'_>, found: &Found, local: &Local) -> DMatrix<f64> {
 pub type Interval = [Option<f64>; 2];
 
 /// The steps a bound may take, and how far it may go [in the fit's variable].
-const TRIES: usize = 7;
+const TRIES: usize = 6;
 const FURTHEST: f64 = 9.0;
 
 /// The profile intervals of all variables around the minimum.
@@ -141,7 +141,7 @@ fn bound(
             *x += (moved * c[(j, i)] / c[(i, i)]).clamp(-1.0, 1.0);
         }
         there[i] = found.x[i] + sign * away;
-        let patience = Patience { misfit: 0.05 * limit, simulations: 8 };
+        let patience = Patience { misfit: 0.05 * limit, simulations: 6 };
         let near = search(problem, &there, Some(i), &patience);
         let root = ((near.misfit - found.misfit) / limit).max(0.0).sqrt();
         if (root - 1.0).abs() < 0.05 {

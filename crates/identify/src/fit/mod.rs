@@ -24,7 +24,7 @@ use crate::Rig;
 use binding::Free;
 use interval::{Interval, Spread};
 use problem::{Problem, Weights};
-use search::{End, Found, TO_THE_END};
+use search::{End, Found, Patience, TO_THE_END};
 
 /// What the fit is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -148,8 +148,25 @@ pub struct Fit {
     pub step_error: f64,
     /// The other friction models, the best first.
     pub models: Vec<Candidate>,
+    /// Every channel over time, as measured, and as simulated before and after the fit.
+    pub traces: Vec<Trace>,
     /// The rig with the fitted values.
     pub rig: Rig,
+}
+
+/// One channel over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trace {
+    /// The channel.
+    pub channel: String,
+    /// Times of the samples [s].
+    pub time: Vec<f64>,
+    /// As measured [its unit].
+    pub measured: Vec<f64>,
+    /// With the nominal parameters.
+    pub before: Vec<f64>,
+    /// With the fitted ones.
+    pub after: Vec<f64>,
 }
 
 /// The steps' tolerance of a fit, of the spans of the channels.
@@ -157,6 +174,12 @@ const TOLERANCE: f64 = 1e-5;
 
 /// A single run must not be worse than windows by more than this to be preferred, for it says more [1].
 const AS_GOOD: f64 = 1.2;
+
+/// A single run so much worse than windows after a first look is given up [1].
+const HOPELESS: f64 = 100.0;
+
+/// The first look at a single run.
+const A_GLANCE: Patience = Patience { misfit: 1.0, simulations: 8 };
 
 /// Fits what is free in `rig` to `data`.
 pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
@@ -185,6 +208,7 @@ pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
         simulations: found.simulations,
         variance: spread.variance,
         neighbours: spread.neighbours,
+        traces: traces(&problem, [&before, &found]),
         step_error: step_error(&problem, &found, &spread),
         models,
         rig: fitted,
@@ -211,7 +235,8 @@ fn problem<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     };
     let closed_loop = rig.controller.is_some() && !data.reference.is_empty();
     let windows = blocks::whole(data);
-    Ok(Problem { rig, data, free, windows, closed_loop, weights, tolerance: TOLERANCE })
+    let counts = Vec::new();
+    Ok(Problem { rig, data, free, windows, closed_loop, counts, weights, tolerance: TOLERANCE })
 }
 
 /// The way in which the record is simulated, and the minimum found so.
@@ -237,21 +262,24 @@ fn best_way<'a>(
         return Ok((problem, found, Way::Windows));
     }
     let by_windows = weighed(windows, options)?;
+    let unweighed = Problem { windows: by_windows.0.windows.clone(), ..whole.clone() };
+    let unweighed = search::search(&unweighed, &by_windows.1.x, None, &A_GLANCE);
+    if mean_of(&search::search(&whole, &by_windows.1.x, None, &A_GLANCE))
+        > HOPELESS * mean_of(&unweighed)
+    {
+        return Ok((by_windows.0, by_windows.1, Way::Windows));
+    }
     let single = starts::best(&whole, options, Some(&by_windows.1.x));
-    let mean = |found: &Found| {
-        found.misfit / found.pieces.iter().map(|p| p.residuals.len()).sum::<usize>().max(1) as f64
-    };
-    let unweighed = search::search(
-        &Problem { windows: by_windows.0.windows.clone(), ..whole.clone() },
-        &by_windows.1.x,
-        None,
-        &TO_THE_END,
-    );
-    if mean(&single) <= AS_GOOD * mean(&unweighed) {
+    if mean_of(&single) <= AS_GOOD * mean_of(&unweighed) {
         let (problem, found) = reweighed(whole, single);
         return Ok((problem, found, Way::OneRun));
     }
     Ok((by_windows.0, by_windows.1, Way::Windows))
+}
+
+/// The mean squared weighed residual [1].
+fn mean_of(found: &Found) -> f64 {
+    found.misfit / found.pieces.iter().map(|p| p.residuals.len()).sum::<usize>().max(1) as f64
 }
 
 /// The best of several starts, then once more with each channel weighed by what its residuals are.
@@ -353,6 +381,39 @@ fn gap(problem: &Problem<'_>, before: &Found, after: &Found) -> Vec<Misfit> {
         .collect()
 }
 
+/// Every channel of the windows; a window that could not be simulated shows what is not a number.
+fn traces(problem: &Problem<'_>, [before, after]: [&Found; 2]) -> Vec<Trace> {
+    let data = problem.data;
+    let samples: Vec<usize> = problem.windows.iter().flat_map(|w| w.first..w.end).collect();
+    let simulated = |found: &Found, of: fn(&crate::march::Motion) -> &Vec<f64>| {
+        let windows = problem.windows.iter().zip(&found.pieces);
+        windows
+            .flat_map(|(window, piece)| {
+                let values = of(&piece.motion);
+                (0..window.len()).map(|i| values.get(i).copied().unwrap_or(f64::NAN))
+            })
+            .collect::<Vec<f64>>()
+    };
+    let one = |channel: &str, measured: &[f64], of: fn(&crate::march::Motion) -> &Vec<f64>| Trace {
+        channel: channel.to_owned(),
+        time: samples.iter().map(|i| data.time[*i]).collect(),
+        measured: samples.iter().map(|i| measured[*i]).collect(),
+        before: simulated(before, of),
+        after: simulated(after, of),
+    };
+    let mut all = Vec::new();
+    if let Some(seen) = data.force.as_ref().or(data.displacement.as_ref()) {
+        all.push(one(&seen.name, &seen.values, |m| &m.q));
+    }
+    if let Some(seen) = &data.velocity {
+        all.push(one(&seen.name, &seen.values, |m| &m.v));
+    }
+    if problem.closed_loop {
+        all.push(one("input", &data.input, |m| &m.u));
+    }
+    all
+}
+
 /// The rig with the values at the minimum.
 fn fitted(problem: &Problem<'_>, found: &Found) -> Rig {
     let mut rig = problem.rig.clone();
@@ -416,5 +477,7 @@ fn step_error(problem: &Problem<'_>, found: &Found, spread: &Spread) -> f64 {
     };
     let change = gradient(&finer, &pieces) - gradient(problem, &found.pieces);
     let step = &spread.covariance * change / spread.variance;
-    (0..step.len()).map(|i| (step[i] / spread.covariance[(i, i)].sqrt()).abs()).fold(0.0, f64::max)
+    (0..step.len())
+        .map(|i| (step[i] / (spread.covariance[(i, i)].sqrt() * spread.inflation[i])).abs())
+        .fold(0.0, f64::max)
 }
