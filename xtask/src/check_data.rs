@@ -93,7 +93,7 @@ fn short(value: f64) -> String {
 }
 
 fn table(channels: &[Facts]) -> Vec<String> {
-    let heads = ["channel", "unit", "least", "largest", "step", "noise <", "blank"];
+    let heads = ["channel", "unit", "least", "largest", "step", "noise", "blank"];
     let mut rows = vec![heads.map(str::to_owned)];
     rows.extend(channels.iter().take(MOST).map(|f| {
         let name: String = safe(&f.name).chars().take(24).collect();
