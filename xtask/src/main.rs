@@ -6,6 +6,7 @@ mod claims;
 mod cli;
 mod compare;
 mod exit;
+mod fit;
 mod list;
 mod new;
 mod output;
@@ -49,6 +50,8 @@ fn run(cli: &Cli) -> Result<Exit, Failure> {
         Command::Claims { json, .. } => claims::claims(&root, *json),
         Command::CheckData(arguments) => check_data::check_data(arguments),
         Command::Bench(arguments) => bench::bench(&root, arguments),
+        Command::Fit(arguments) => fit::fit(arguments),
+        Command::Simulate(arguments) => fit::simulate(arguments),
         Command::Compare(arguments) => compare::compare(&root, arguments),
         Command::Record(arguments) => synthetic::record(&root, arguments),
         Command::New { what } => new::new(&root, what),

@@ -7,7 +7,7 @@ mod sampling;
 mod series;
 mod signs;
 
-pub(crate) use series::median_step;
+pub(crate) use series::{median_step, noise};
 
 use crate::recording::{Columns, FEWEST_ROWS, quantum_at_drum, to_si, usable};
 use crate::rig::{Kind, Rig};

@@ -16,7 +16,7 @@ pub(super) const NORMAL: f64 = 1.959_963_984_540_054;
 
 /// The spread of the fit's variables.
 #[derive(Debug, Clone)]
-pub struct Spread {
+pub(super) struct Spread {
     /// The residual variance s², 1 where model and noise are right [1].
     pub variance: f64,
     /// Covariance of the fit's variables with white residuals, s² (JᵀJ)⁻¹.
@@ -103,7 +103,7 @@ fn scores(problem: &Problem<'_>, found: &Found, local: &Local) -> DMatrix<f64> {
 
 /// The interval of one variable in which the misfit, with all others refitted, stays within the 95 % quantile;
 /// none where no bound was found.
-pub type Interval = [Option<f64>; 2];
+pub(super) type Interval = [Option<f64>; 2];
 
 /// The steps a bound may take, and how far it may go [in the fit's variable].
 const TRIES: usize = 6;

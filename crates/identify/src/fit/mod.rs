@@ -121,6 +121,8 @@ pub struct Misfit {
     pub after: f64,
     /// The noise that the channel itself shows.
     pub noise: f64,
+    /// Root mean square of what was measured, against which a relative error is meant.
+    pub size: f64,
 }
 
 /// A fit.
@@ -222,20 +224,29 @@ fn problem<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
         return Err(FitError::NothingFree);
     }
     let expected = free.len() + 8;
+    let problem = unfree(rig, data)?;
     if data.time.len() < expected {
         return Err(FitError::TooShort { found: data.time.len(), expected });
+    }
+    Ok(Problem { free, ..problem })
+}
+
+/// The same with nothing free.
+fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
+    if data.time.len() < 8 {
+        return Err(FitError::TooShort { found: data.time.len(), expected: 8 });
     }
     let noise = |seen: Option<&Seen>| seen.map_or(1.0, |s| s.noise.max(f64::MIN_POSITIVE));
     let weights = Weights {
         displacement: noise(data.displacement.as_ref()),
         velocity: noise(data.velocity.as_ref()),
-        input: data::noise(&data.input).max(1e-9),
+        input: crate::doctor::noise(&data.input).max(1e-9),
         force: noise(data.force.as_ref()),
         loads: [0, 1].map(|i| noise(data.loads.as_ref().map(|l| &l[i]))),
     };
     let closed_loop = rig.controller.is_some() && !data.reference.is_empty();
     let windows = blocks::whole(data);
-    let counts = Vec::new();
+    let (free, counts) = (Vec::new(), Vec::new());
     Ok(Problem { rig, data, free, windows, closed_loop, counts, weights, tolerance: TOLERANCE })
 }
 
@@ -331,18 +342,10 @@ fn residuals(problem: &Problem<'_>, found: &Found) -> Vec<(String, f64)> {
     let channels = problem.channels();
     let mut weights = problem.weights;
     let sizes: Vec<f64> = weights_of(problem, &mut weights).into_iter().map(|w| *w).collect();
-    let names: Vec<&str> = if problem.data.force.is_some() {
-        vec!["force"]
-    } else {
-        [
-            ("displacement", true),
-            ("velocity", problem.data.velocity.is_some()),
-            ("input", problem.closed_loop),
-        ]
-        .into_iter()
-        .filter_map(|(name, there)| there.then_some(name))
-        .collect()
-    };
+    let seen = [&problem.data.force, &problem.data.displacement, &problem.data.velocity];
+    let mut names: Vec<&str> =
+        seen.iter().filter_map(|s| s.as_ref().map(|s| s.name.as_str())).collect();
+    names.extend(problem.closed_loop.then_some("input"));
     (0..channels)
         .map(|c| {
             let (mut sum, mut count) = (0.0, 0);
@@ -364,21 +367,56 @@ fn start_misfit(problem: &Problem<'_>) -> Found {
     Found { x, misfit: f64::NAN, pieces, end: End::OutOfPatience, simulations: [1, 0] }
 }
 
+/// The misfit of every channel of the problem, before and after.
 fn gap(problem: &Problem<'_>, before: &Found, after: &Found) -> Vec<Misfit> {
-    let noises = [&problem.data.displacement, &problem.data.velocity, &problem.data.force];
+    let data = problem.data;
+    let seen = [&data.displacement, &data.velocity, &data.force];
     residuals(problem, before)
         .into_iter()
         .zip(residuals(problem, after))
         .map(|((channel, before), (_, after))| {
-            let noise = match channel.as_str() {
-                "displacement" => noises[0].as_ref().map_or(0.0, |s| s.noise),
-                "velocity" => noises[1].as_ref().map_or(0.0, |s| s.noise),
-                "force" => noises[2].as_ref().map_or(0.0, |s| s.noise),
-                _ => data::noise(&problem.data.input),
-            };
-            Misfit { channel, before, after, noise }
+            let of = seen.iter().find_map(|s| s.as_ref().filter(|s| s.name == channel));
+            let values = of.map_or(&data.input, |s| &s.values);
+            let noise = of.map_or_else(|| crate::doctor::noise(&data.input), |s| s.noise);
+            let squares: f64 = values.iter().map(|v| v * v).sum();
+            let size = (squares / values.len().max(1) as f64).sqrt();
+            Misfit { channel, before, after, noise, size }
         })
         .collect()
+}
+
+/// A rig's model run on a record's inputs, nothing fitted but the state at the start of each run.
+#[derive(Debug, Clone)]
+pub struct Simulated {
+    /// The misfit of every channel; before and after are the same.
+    pub gap: Vec<Misfit>,
+    /// Every channel over time; before and after are the same.
+    pub traces: Vec<Trace>,
+    /// How the record was simulated.
+    pub way: Way,
+}
+
+/// Runs the model of `rig` on the inputs of `data`: in closed loop where the controller is declared, in windows
+/// of a `window` [s] if one is given, in one run otherwise.
+pub fn simulate(rig: &Rig, data: &Data, window: Option<f64>) -> Result<Simulated, FitError> {
+    let mut problem = unfree(rig, data)?;
+    let way = match window {
+        _ if data.force.is_some() => Way::Imposed,
+        _ if problem.closed_loop => Way::ClosedLoop,
+        Some(_) => {
+            problem.windows = blocks::blocks(data, window);
+            Way::Windows
+        }
+        None => Way::OneRun,
+    };
+    let pieces = models::settled(&problem, &[]);
+    if pieces.iter().any(|p| p.motion.q.is_empty()) {
+        return Err(FitError::NoMotion);
+    }
+    let found =
+        Found { x: Vec::new(), misfit: f64::NAN, pieces, end: End::Converged, simulations: [1, 0] };
+    let gap = gap(&problem, &found, &found);
+    Ok(Simulated { gap, traces: traces(&problem, [&found, &found]), way })
 }
 
 /// Every channel of the windows; a window that could not be simulated shows what is not a number.

@@ -168,7 +168,7 @@ fn judged(name: String, rig: Rig, data: &Data, windows: &[Window]) -> Option<Can
 }
 
 /// The windows at `x`, their starts fitted.
-fn settled(problem: &Problem<'_>, x: &[f64]) -> Vec<super::problem::Piece> {
+pub(super) fn settled(problem: &Problem<'_>, x: &[f64]) -> Vec<super::problem::Piece> {
     let mut pieces = problem.pieces(x, None);
     for _ in 0..2 {
         let leads: Vec<_> = problem.all_slopes(x, &pieces).into_iter().map(|s| s.lead).collect();
