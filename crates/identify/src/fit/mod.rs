@@ -174,11 +174,12 @@ pub struct Trace {
 /// The steps' tolerance of a fit, of the spans of the channels.
 const TOLERANCE: f64 = 1e-5;
 
-/// A single run must not be worse than windows by more than this to be preferred, for it says more [1].
-const AS_GOOD: f64 = 1.2;
+/// A single run must explain the record down to its noise, or windows are preferred: what it leaves, as the noise
+/// of the measured input does, adds up from sample to sample, and is not what the intervals are made for [1].
+const AS_GOOD: f64 = 2.0;
 
-/// A single run so much worse than windows after a first look is given up [1].
-const HOPELESS: f64 = 100.0;
+/// A single run that leaves so much more than the noise after a first look is given up [1].
+const HOPELESS: f64 = 1e4;
 
 /// The first look at a single run.
 const A_GLANCE: Patience = Patience { misfit: 1.0, simulations: 8 };
@@ -199,7 +200,11 @@ pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
     };
     let drawn = bootstrap::draw(&problem, &found, &local, options);
     let fitted = fitted(&problem, &found);
-    let models = if options.models { models::compare(&fitted, data, options) } else { Vec::new() };
+    let models = if options.models {
+        models::compare(&fitted, data, options, problem.weights)
+    } else {
+        Vec::new()
+    };
     Ok(Fit {
         parameters: estimates(&problem, &found, &spread, (&profiles, &drawn, options.profiles)),
         correlation: correlation(&spread),
@@ -247,7 +252,18 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     let closed_loop = rig.controller.is_some() && !data.reference.is_empty();
     let windows = blocks::whole(data);
     let (free, counts) = (Vec::new(), Vec::new());
-    Ok(Problem { rig, data, free, windows, closed_loop, counts, weights, tolerance: TOLERANCE })
+    let memory = binding::model::<f64>(rig, &|_| None).contact.memory();
+    Ok(Problem {
+        rig,
+        data,
+        free,
+        windows,
+        closed_loop,
+        memory,
+        counts,
+        weights,
+        tolerance: TOLERANCE,
+    })
 }
 
 /// The way in which the record is simulated, and the minimum found so.
@@ -273,19 +289,18 @@ fn best_way<'a>(
         return Ok((problem, found, Way::Windows));
     }
     let by_windows = weighed(windows, options)?;
-    let unweighed = Problem { windows: by_windows.0.windows.clone(), ..whole.clone() };
-    let unweighed = search::search(&unweighed, &by_windows.1.x, None, &A_GLANCE);
-    if mean_of(&search::search(&whole, &by_windows.1.x, None, &A_GLANCE))
-        > HOPELESS * mean_of(&unweighed)
-    {
+    if mean_of(&search::search(&whole, &by_windows.1.x, None, &A_GLANCE)) > HOPELESS {
         return Ok((by_windows.0, by_windows.1, Way::Windows));
     }
     let single = starts::best(&whole, options, Some(&by_windows.1.x));
-    if mean_of(&single) <= AS_GOOD * mean_of(&unweighed) {
+    if mean_of(&single) <= AS_GOOD {
         let (problem, found) = reweighed(whole, single);
         return Ok((problem, found, Way::OneRun));
     }
-    Ok((by_windows.0, by_windows.1, Way::Windows))
+    // A single run sees more than windows do, and may have found the better minimum.
+    let again = search::search(&by_windows.0, &single.x, None, &TO_THE_END);
+    let found = if again.misfit < by_windows.1.misfit { again } else { by_windows.1 };
+    Ok((by_windows.0, found, Way::Windows))
 }
 
 /// The mean squared weighed residual [1].

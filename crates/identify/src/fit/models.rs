@@ -1,7 +1,11 @@
 //! The friction models against one another, on blocks that were not fitted.
 
 use super::{
-    Data, Options, binding, blocks, problem::Problem, search::End, starts, window::Window,
+    Data, Options, binding, blocks,
+    problem::{Problem, Weights},
+    search::End,
+    starts,
+    window::Window,
 };
 use crate::Rig;
 use duhem::Parameter;
@@ -12,7 +16,7 @@ use rayon::prelude::*;
 pub struct Candidate {
     /// The friction model; Maxwell-slip with the number of its elements.
     pub name: String,
-    /// The root mean square of the residuals on the blocks not fitted, of the channels' noise [1].
+    /// The root mean square of the residuals on the blocks not fitted, of the channels' weights [1].
     pub held_out_error: f64,
     /// The same on the blocks it was fitted to.
     pub trained_error: f64,
@@ -117,15 +121,20 @@ fn elements(count: usize, force: f64, stiffness: f64) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Every model fitted to every second block of the record and judged on the others, the best first; of
-/// Maxwell-slip only the number of elements that is best.
-pub(super) fn compare(rig: &Rig, data: &Data, options: &Options) -> Vec<Candidate> {
+/// Maxwell-slip only the number of elements that is best. All are weighed alike, by `weights`.
+pub(super) fn compare(
+    rig: &Rig,
+    data: &Data,
+    options: &Options,
+    weights: Weights,
+) -> Vec<Candidate> {
     let windows = blocks::blocks(data, options.window);
     if windows.len() < 2 {
         return Vec::new();
     }
     let mut all: Vec<Candidate> = candidates(rig)
         .into_par_iter()
-        .filter_map(|(name, rig)| judged(name, rig, data, &windows))
+        .filter_map(|(name, rig)| judged(name, rig, data, (&windows, weights)))
         .collect();
     all.sort_by(|a, b| a.held_out_error.total_cmp(&b.held_out_error));
     let mut seen = false;
@@ -135,8 +144,13 @@ pub(super) fn compare(rig: &Rig, data: &Data, options: &Options) -> Vec<Candidat
 
 /// A model trained on every second window and judged on the others. In closed loop, and where the motion is
 /// imposed, the record is simulated in one run, and the samples of the other windows do not count.
-fn judged(name: String, rig: Rig, data: &Data, windows: &[Window]) -> Option<Candidate> {
-    let base = super::problem(&rig, data).ok()?;
+fn judged(
+    name: String,
+    rig: Rig,
+    data: &Data,
+    (windows, weights): (&[Window], Weights),
+) -> Option<Candidate> {
+    let base = Problem { weights, ..super::problem(&rig, data).ok()? };
     let (train, judge) = blocks::split(windows);
     let only = |some: &[Window]| {
         if base.closed_loop || data.force.is_some() {

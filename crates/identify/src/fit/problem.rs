@@ -31,6 +31,8 @@ pub struct Problem<'a> {
     pub windows: Vec<Window>,
     /// Whether the controller is simulated, too.
     pub closed_loop: bool,
+    /// The distance over which the nominal contact forgets where it was [m].
+    pub memory: f64,
     /// The samples that count; all if empty.
     pub counts: Vec<bool>,
     /// What a residual of each channel is divided by [its unit]: displacement, velocity, input, force, loads.
@@ -157,10 +159,9 @@ impl Problem<'_> {
 
     /// The state of the contact at a window's start follows from how it came there.
     fn state<D: Real>(&self, model: &Model<D>, window: &Window, q: D, v: D) -> Start<D> {
-        let long = window.run_up.abs() > FORGOTTEN * model.contact.memory();
-        let z = if long && window.run_up != 0.0 {
-            let along = if v.re() == 0.0 { window.run_up } else { v.re() };
-            model.contact.sliding(along)
+        // By the nominal memory: the answer must not jump where a parameter passes a limit.
+        let z = if window.run_up.abs() > FORGOTTEN * self.memory {
+            model.contact.sliding(window.run_up.signum() * v.re().abs())
         } else {
             let u = D::from(self.data.input[window.first]);
             model.contact.holding(model.drive(u, q, v))
