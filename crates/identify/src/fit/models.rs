@@ -11,7 +11,7 @@ use crate::Rig;
 use duhem::Parameter;
 use rayon::prelude::*;
 
-/// A friction model, fitted to every second block and judged on the others.
+/// A friction model, fitted to half of the blocks and judged on the others.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
     /// The friction model; Maxwell-slip with the number of its elements.
@@ -120,7 +120,7 @@ fn elements(count: usize, force: f64, stiffness: f64) -> (Vec<f64>, Vec<f64>) {
     (vec![stiffness / n; count], delta)
 }
 
-/// Every model fitted to every second block of the record and judged on the others, the best first; of
+/// Every model fitted to half of the blocks of the record and judged on the others, the best first; of
 /// Maxwell-slip only the number of elements that is best. All are weighed alike, by `weights`.
 pub(super) fn compare(
     rig: &Rig,
@@ -142,7 +142,7 @@ pub(super) fn compare(
     all
 }
 
-/// A model trained on every second window and judged on the others. In closed loop, and where the motion is
+/// A model trained on half of the windows and judged on the others. In closed loop, and where the motion is
 /// imposed, the record is simulated in one run, and the samples of the other windows do not count.
 fn judged(
     name: String,
