@@ -102,7 +102,7 @@ fn a_record_reads_back_and_any_changed_byte_is_noticed() {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::new(folder.path().to_path_buf());
     let key = Key::of(&["a case"]);
-    assert_eq!(store.read(&key).unwrap(), Found::Nothing);
+    assert_eq!(store.read::<CaseRecord>(&key).unwrap(), Found::Nothing);
     store.write(&key, &record()).unwrap();
     assert_eq!(store.read(&key).unwrap(), Found::Record(Box::new(record())));
     let path = folder.path().join(&key.as_str()[..2]).join(format!("{}.json", key.as_str()));
@@ -111,9 +111,12 @@ fn a_record_reads_back_and_any_changed_byte_is_noticed() {
         let mut bytes = whole.clone();
         bytes[at] ^= 1;
         fs::write(&path, &bytes).unwrap();
-        assert!(matches!(store.read(&key).unwrap(), Found::Damaged(_)), "byte {at}");
+        assert!(matches!(store.read::<CaseRecord>(&key).unwrap(), Found::Damaged(_)), "byte {at}");
         fs::write(&path, &whole[..at]).unwrap();
-        assert!(matches!(store.read(&key).unwrap(), Found::Damaged(_)), "cut at {at}");
+        assert!(
+            matches!(store.read::<CaseRecord>(&key).unwrap(), Found::Damaged(_)),
+            "cut at {at}"
+        );
     }
 }
 
