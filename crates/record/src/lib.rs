@@ -4,7 +4,8 @@
 //! A row here is text, numbers and units; what they mean is the business of those who write and read them.
 //!
 //! Read first: [`CaseRow`] (one cell of model × input × solver × control), [`Summary`] (all tables of one
-//! experiment, what the report is rendered from), [`Store`] (finished cases on disk, under their content's key).
+//! experiment, what the report is rendered from), [`Store`] (finished cases on disk, under their content's key);
+//! and for records of drives [`Sheet`].
 
 mod error;
 mod file;

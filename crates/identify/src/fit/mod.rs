@@ -24,7 +24,7 @@ use crate::Rig;
 use binding::Free;
 use interval::{Interval, Spread};
 use problem::{Problem, Weights};
-use search::{End, Found, TO_THE_END};
+use search::{End, Found, Patience, TO_THE_END};
 
 /// What the fit is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -121,6 +121,8 @@ pub struct Misfit {
     pub after: f64,
     /// The noise that the channel itself shows.
     pub noise: f64,
+    /// Root mean square of what was measured, against which a relative error is meant.
+    pub size: f64,
 }
 
 /// A fit.
@@ -148,15 +150,39 @@ pub struct Fit {
     pub step_error: f64,
     /// The other friction models, the best first.
     pub models: Vec<Candidate>,
+    /// Every channel over time, as measured, and as simulated before and after the fit.
+    pub traces: Vec<Trace>,
     /// The rig with the fitted values.
     pub rig: Rig,
+}
+
+/// One channel over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trace {
+    /// The channel.
+    pub channel: String,
+    /// Times of the samples [s].
+    pub time: Vec<f64>,
+    /// As measured [its unit].
+    pub measured: Vec<f64>,
+    /// With the nominal parameters.
+    pub before: Vec<f64>,
+    /// With the fitted ones.
+    pub after: Vec<f64>,
 }
 
 /// The steps' tolerance of a fit, of the spans of the channels.
 const TOLERANCE: f64 = 1e-5;
 
-/// A single run must not be worse than windows by more than this to be preferred, for it says more [1].
-const AS_GOOD: f64 = 1.2;
+/// A single run must explain the record down to its noise, or windows are preferred: what it leaves, as the noise
+/// of the measured input does, adds up from sample to sample, and is not what the intervals are made for [1].
+const AS_GOOD: f64 = 2.0;
+
+/// A single run that leaves so much more than the noise after a first look is given up [1].
+const HOPELESS: f64 = 1e4;
+
+/// The first look at a single run.
+const A_GLANCE: Patience = Patience { misfit: 1.0, simulations: 8 };
 
 /// Fits what is free in `rig` to `data`.
 pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
@@ -174,7 +200,11 @@ pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
     };
     let drawn = bootstrap::draw(&problem, &found, &local, options);
     let fitted = fitted(&problem, &found);
-    let models = if options.models { models::compare(&fitted, data, options) } else { Vec::new() };
+    let models = if options.models {
+        models::compare(&fitted, data, options, problem.weights)
+    } else {
+        Vec::new()
+    };
     Ok(Fit {
         parameters: estimates(&problem, &found, &spread, (&profiles, &drawn, options.profiles)),
         correlation: correlation(&spread),
@@ -185,6 +215,7 @@ pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
         simulations: found.simulations,
         variance: spread.variance,
         neighbours: spread.neighbours,
+        traces: traces(&problem, [&before, &found]),
         step_error: step_error(&problem, &found, &spread),
         models,
         rig: fitted,
@@ -198,20 +229,41 @@ fn problem<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
         return Err(FitError::NothingFree);
     }
     let expected = free.len() + 8;
+    let problem = unfree(rig, data)?;
     if data.time.len() < expected {
         return Err(FitError::TooShort { found: data.time.len(), expected });
+    }
+    Ok(Problem { free, ..problem })
+}
+
+/// The same with nothing free.
+fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
+    if data.time.len() < 8 {
+        return Err(FitError::TooShort { found: data.time.len(), expected: 8 });
     }
     let noise = |seen: Option<&Seen>| seen.map_or(1.0, |s| s.noise.max(f64::MIN_POSITIVE));
     let weights = Weights {
         displacement: noise(data.displacement.as_ref()),
         velocity: noise(data.velocity.as_ref()),
-        input: data::noise(&data.input).max(1e-9),
+        input: crate::doctor::noise(&data.input).max(1e-9),
         force: noise(data.force.as_ref()),
         loads: [0, 1].map(|i| noise(data.loads.as_ref().map(|l| &l[i]))),
     };
     let closed_loop = rig.controller.is_some() && !data.reference.is_empty();
     let windows = blocks::whole(data);
-    Ok(Problem { rig, data, free, windows, closed_loop, weights, tolerance: TOLERANCE })
+    let (free, counts) = (Vec::new(), Vec::new());
+    let memory = binding::model::<f64>(rig, &|_| None).contact.memory();
+    Ok(Problem {
+        rig,
+        data,
+        free,
+        windows,
+        closed_loop,
+        memory,
+        counts,
+        weights,
+        tolerance: TOLERANCE,
+    })
 }
 
 /// The way in which the record is simulated, and the minimum found so.
@@ -237,21 +289,23 @@ fn best_way<'a>(
         return Ok((problem, found, Way::Windows));
     }
     let by_windows = weighed(windows, options)?;
+    if mean_of(&search::search(&whole, &by_windows.1.x, None, &A_GLANCE)) > HOPELESS {
+        return Ok((by_windows.0, by_windows.1, Way::Windows));
+    }
     let single = starts::best(&whole, options, Some(&by_windows.1.x));
-    let mean = |found: &Found| {
-        found.misfit / found.pieces.iter().map(|p| p.residuals.len()).sum::<usize>().max(1) as f64
-    };
-    let unweighed = search::search(
-        &Problem { windows: by_windows.0.windows.clone(), ..whole.clone() },
-        &by_windows.1.x,
-        None,
-        &TO_THE_END,
-    );
-    if mean(&single) <= AS_GOOD * mean(&unweighed) {
+    if mean_of(&single) <= AS_GOOD {
         let (problem, found) = reweighed(whole, single);
         return Ok((problem, found, Way::OneRun));
     }
-    Ok((by_windows.0, by_windows.1, Way::Windows))
+    // A single run sees more than windows do, and may have found the better minimum.
+    let again = search::search(&by_windows.0, &single.x, None, &TO_THE_END);
+    let found = if again.misfit < by_windows.1.misfit { again } else { by_windows.1 };
+    Ok((by_windows.0, found, Way::Windows))
+}
+
+/// The mean squared weighed residual [1].
+fn mean_of(found: &Found) -> f64 {
+    found.misfit / found.pieces.iter().map(|p| p.residuals.len()).sum::<usize>().max(1) as f64
 }
 
 /// The best of several starts, then once more with each channel weighed by what its residuals are.
@@ -303,18 +357,10 @@ fn residuals(problem: &Problem<'_>, found: &Found) -> Vec<(String, f64)> {
     let channels = problem.channels();
     let mut weights = problem.weights;
     let sizes: Vec<f64> = weights_of(problem, &mut weights).into_iter().map(|w| *w).collect();
-    let names: Vec<&str> = if problem.data.force.is_some() {
-        vec!["force"]
-    } else {
-        [
-            ("displacement", true),
-            ("velocity", problem.data.velocity.is_some()),
-            ("input", problem.closed_loop),
-        ]
-        .into_iter()
-        .filter_map(|(name, there)| there.then_some(name))
-        .collect()
-    };
+    let seen = [&problem.data.force, &problem.data.displacement, &problem.data.velocity];
+    let mut names: Vec<&str> =
+        seen.iter().filter_map(|s| s.as_ref().map(|s| s.name.as_str())).collect();
+    names.extend(problem.closed_loop.then_some("input"));
     (0..channels)
         .map(|c| {
             let (mut sum, mut count) = (0.0, 0);
@@ -336,21 +382,89 @@ fn start_misfit(problem: &Problem<'_>) -> Found {
     Found { x, misfit: f64::NAN, pieces, end: End::OutOfPatience, simulations: [1, 0] }
 }
 
+/// The misfit of every channel of the problem, before and after.
 fn gap(problem: &Problem<'_>, before: &Found, after: &Found) -> Vec<Misfit> {
-    let noises = [&problem.data.displacement, &problem.data.velocity, &problem.data.force];
+    let data = problem.data;
+    let seen = [&data.displacement, &data.velocity, &data.force];
     residuals(problem, before)
         .into_iter()
         .zip(residuals(problem, after))
         .map(|((channel, before), (_, after))| {
-            let noise = match channel.as_str() {
-                "displacement" => noises[0].as_ref().map_or(0.0, |s| s.noise),
-                "velocity" => noises[1].as_ref().map_or(0.0, |s| s.noise),
-                "force" => noises[2].as_ref().map_or(0.0, |s| s.noise),
-                _ => data::noise(&problem.data.input),
-            };
-            Misfit { channel, before, after, noise }
+            let of = seen.iter().find_map(|s| s.as_ref().filter(|s| s.name == channel));
+            let values = of.map_or(&data.input, |s| &s.values);
+            let noise = of.map_or_else(|| crate::doctor::noise(&data.input), |s| s.noise);
+            let squares: f64 = values.iter().map(|v| v * v).sum();
+            let size = (squares / values.len().max(1) as f64).sqrt();
+            Misfit { channel, before, after, noise, size }
         })
         .collect()
+}
+
+/// A rig's model run on a record's inputs, nothing fitted but the state at the start of each run.
+#[derive(Debug, Clone)]
+pub struct Simulated {
+    /// The misfit of every channel; before and after are the same.
+    pub gap: Vec<Misfit>,
+    /// Every channel over time; before and after are the same.
+    pub traces: Vec<Trace>,
+    /// How the record was simulated.
+    pub way: Way,
+}
+
+/// Runs the model of `rig` on the inputs of `data`: in closed loop where the controller is declared, in windows
+/// of a `window` [s] if one is given, in one run otherwise.
+pub fn simulate(rig: &Rig, data: &Data, window: Option<f64>) -> Result<Simulated, FitError> {
+    let mut problem = unfree(rig, data)?;
+    let way = match window {
+        _ if data.force.is_some() => Way::Imposed,
+        _ if problem.closed_loop => Way::ClosedLoop,
+        Some(_) => {
+            problem.windows = blocks::blocks(data, window);
+            Way::Windows
+        }
+        None => Way::OneRun,
+    };
+    let pieces = models::settled(&problem, &[]);
+    if pieces.iter().any(|p| p.motion.q.is_empty()) {
+        return Err(FitError::NoMotion);
+    }
+    let found =
+        Found { x: Vec::new(), misfit: f64::NAN, pieces, end: End::Converged, simulations: [1, 0] };
+    let gap = gap(&problem, &found, &found);
+    Ok(Simulated { gap, traces: traces(&problem, [&found, &found]), way })
+}
+
+/// Every channel of the windows; a window that could not be simulated shows what is not a number.
+fn traces(problem: &Problem<'_>, [before, after]: [&Found; 2]) -> Vec<Trace> {
+    let data = problem.data;
+    let samples: Vec<usize> = problem.windows.iter().flat_map(|w| w.first..w.end).collect();
+    let simulated = |found: &Found, of: fn(&crate::march::Motion) -> &Vec<f64>| {
+        let windows = problem.windows.iter().zip(&found.pieces);
+        windows
+            .flat_map(|(window, piece)| {
+                let values = of(&piece.motion);
+                (0..window.len()).map(|i| values.get(i).copied().unwrap_or(f64::NAN))
+            })
+            .collect::<Vec<f64>>()
+    };
+    let one = |channel: &str, measured: &[f64], of: fn(&crate::march::Motion) -> &Vec<f64>| Trace {
+        channel: channel.to_owned(),
+        time: samples.iter().map(|i| data.time[*i]).collect(),
+        measured: samples.iter().map(|i| measured[*i]).collect(),
+        before: simulated(before, of),
+        after: simulated(after, of),
+    };
+    let mut all = Vec::new();
+    if let Some(seen) = data.force.as_ref().or(data.displacement.as_ref()) {
+        all.push(one(&seen.name, &seen.values, |m| &m.q));
+    }
+    if let Some(seen) = &data.velocity {
+        all.push(one(&seen.name, &seen.values, |m| &m.v));
+    }
+    if problem.closed_loop {
+        all.push(one("input", &data.input, |m| &m.u));
+    }
+    all
 }
 
 /// The rig with the values at the minimum.
@@ -416,5 +530,7 @@ fn step_error(problem: &Problem<'_>, found: &Found, spread: &Spread) -> f64 {
     };
     let change = gradient(&finer, &pieces) - gradient(problem, &found.pieces);
     let step = &spread.covariance * change / spread.variance;
-    (0..step.len()).map(|i| (step[i] / spread.covariance[(i, i)].sqrt()).abs()).fold(0.0, f64::max)
+    (0..step.len())
+        .map(|i| (step[i] / (spread.covariance[(i, i)].sqrt() * spread.inflation[i])).abs())
+        .fold(0.0, f64::max)
 }

@@ -31,6 +31,10 @@ pub struct Problem<'a> {
     pub windows: Vec<Window>,
     /// Whether the controller is simulated, too.
     pub closed_loop: bool,
+    /// The distance over which the nominal contact forgets where it was [m].
+    pub memory: f64,
+    /// The samples that count; all if empty.
+    pub counts: Vec<bool>,
     /// What a residual of each channel is divided by [its unit]: displacement, velocity, input, force, loads.
     pub weights: Weights,
     /// The steps' tolerance, of the spans of displacement and velocity [1].
@@ -155,10 +159,9 @@ impl Problem<'_> {
 
     /// The state of the contact at a window's start follows from how it came there.
     fn state<D: Real>(&self, model: &Model<D>, window: &Window, q: D, v: D) -> Start<D> {
-        let long = window.run_up.abs() > FORGOTTEN * model.contact.memory();
-        let z = if long && window.run_up != 0.0 {
-            let along = if v.re() == 0.0 { window.run_up } else { v.re() };
-            model.contact.sliding(along)
+        // By the nominal memory: the answer must not jump where a parameter passes a limit.
+        let z = if window.run_up.abs() > FORGOTTEN * self.memory {
+            model.contact.sliding(window.run_up.signum() * v.re().abs())
         } else {
             let u = D::from(self.data.input[window.first]);
             model.contact.holding(model.drive(u, q, v))
@@ -180,7 +183,8 @@ impl Problem<'_> {
                 force.values[window.first],
                 &mut |i, f| {
                     motion.q.push(f);
-                    residuals.push((f - force.values[window.first + i]) / self.weights.force);
+                    let off = (f - force.values[window.first + i]) / self.weights.force;
+                    residuals.push(self.share(window.first + i) * off);
                 },
             );
             return Piece { start, motion, residuals };
@@ -206,9 +210,10 @@ impl Problem<'_> {
     }
 
     fn sample(&self, i: usize, q: Option<f64>, v: Option<f64>, u: Option<f64>, out: &mut Vec<f64>) {
+        let share = self.share(i);
         let mut push = |value: Option<f64>, seen: f64, weight: f64| {
             let residual = value.map_or(NO_MOTION, |value| (value - seen) / weight);
-            out.push(if residual.is_finite() { residual } else { NO_MOTION });
+            out.push(share * if residual.is_finite() { residual } else { NO_MOTION });
         };
         if let Some(seen) = &self.data.displacement {
             push(q, seen.values[i], self.weights.displacement);
@@ -219,6 +224,11 @@ impl Problem<'_> {
         if self.closed_loop {
             push(u, self.data.input[i], self.weights.input);
         }
+    }
+
+    /// 1 for a sample that counts, 0 for another.
+    fn share(&self, i: usize) -> f64 {
+        if self.counts.get(i).copied().unwrap_or(true) { 1.0 } else { 0.0 }
     }
 
     /// The standard deviation of a sample of the velocity: noise, and what it changes by in a share of a sample.
@@ -309,7 +319,9 @@ impl Problem<'_> {
                 &self.data.input[range],
                 force.values[window.first],
                 &mut |i, f| {
-                    write(i, &f, self.weights.force);
+                    if self.share(window.first + i) > 0.0 {
+                        write(i, &f, self.weights.force);
+                    }
                 },
             );
             return;
@@ -328,6 +340,9 @@ impl Problem<'_> {
         }
         replay(&model, &self.drive(window), tape, &state, &mut |i, q, v, u| {
             let mut row = i * channels;
+            if self.share(window.first + i) == 0.0 {
+                return;
+            }
             write(row, &q, self.weights.displacement);
             if let Some(seen) = &self.data.velocity {
                 row += 1;

@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 /// A first look from each start.
-const LOOK: Patience = Patience { misfit: 1.0, simulations: 14 };
+const LOOK: Patience = Patience { misfit: 1.0, simulations: 12 };
 
 /// The fit's variables at the nominal values; what is nominally zero begins at its own size.
 pub(super) fn nominal(problem: &Problem<'_>) -> Vec<f64> {

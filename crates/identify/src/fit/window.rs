@@ -13,7 +13,8 @@ pub struct Window {
     pub start: [f64; 2],
     /// The standard deviations of these.
     pub spread: [f64; 2],
-    /// How far the displacement has come since it last turned [m], with its sign.
+    /// How far the displacement has come since it last turned [m], with its sign; 0 where it is at rest, for then
+    /// the contact holds what force there is, wherever it came from.
     pub run_up: f64,
 }
 
@@ -41,12 +42,13 @@ impl Window {
         if v.abs() < 2.0 * v_spread {
             v = 0.0;
         }
+        let come = run_up(&seen.values[..=first], 4.0 * seen.noise);
         Self {
             first,
             end,
             start: [q, v],
             spread: [LOOSE * q_spread, LOOSE * v_spread],
-            run_up: run_up(&seen.values[..=first], 4.0 * seen.noise),
+            run_up: if v.abs() > MOVING * v_spread { come * same(come, v) } else { 0.0 },
         }
     }
 
@@ -60,6 +62,14 @@ impl Window {
         self.end <= self.first
     }
 }
+
+/// 1 for two numbers of one sign, else 0.
+fn same(a: f64, b: f64) -> f64 {
+    if a * b > 0.0 { 1.0 } else { 0.0 }
+}
+
+/// So many standard deviations of the velocity are a motion.
+const MOVING: f64 = 5.0;
 
 /// Value and slope at the first time of the parabola (of the line, the constant, if there are not enough) that
 /// fits best, and their standard deviations for values with this `noise`.

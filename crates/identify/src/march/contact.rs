@@ -113,7 +113,7 @@ impl<D: Real> Contact<D> {
 
     /// The states [N] or [m] of a contact that has been sliding at the velocity `v` for long.
     pub fn sliding(&self, v: f64) -> Vec<D> {
-        let toward = |x: D| if v < 0.0 { -x } else { x };
+        let toward = |x: D| if v.is_sign_negative() { -x } else { x };
         match self {
             Self::None | Self::Coulomb { .. } => Vec::new(),
             Self::Dahl { f_c, .. } => vec![toward(*f_c)],

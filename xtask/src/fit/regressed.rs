@@ -1,0 +1,168 @@
+//! `fit --method regression`: filtered position, central differences, least squares.
+
+use super::{FORMAT, rounded, say_where};
+use crate::{
+    cli::FitArgs,
+    exit::{Exit, Failure},
+    output,
+    recorded::safe,
+};
+use experiment::four_digits;
+use identify::{
+    Recording, Rig,
+    regression::{
+        Options, Regression, RegressionError, Samples, drive_gain, regress, relative_error,
+    },
+    rig::Kind,
+};
+use record::write_whole;
+use serde_json::{Value, json};
+use std::time::Instant;
+
+impl From<RegressionError> for Failure {
+    fn from(error: RegressionError) -> Self {
+        Self { exit: Exit::Input, error: error.into() }
+    }
+}
+
+/// The 97.5 % quantile of the normal distribution.
+const NORMAL: f64 = 1.959_963_984_540_054;
+
+/// Columns for the regression, the force as it drives the plant.
+struct Columns {
+    time: Vec<f64>,
+    position: Vec<f64>,
+    force: Vec<f64>,
+}
+
+impl Columns {
+    fn of(rig: &Rig, recording: &Recording) -> Self {
+        let turns = Kind::of(rig.kind).is_some_and(Kind::turns);
+        let imposed = rig.kind == "prescribed";
+        let position = match (imposed, turns) {
+            (true, _) => "displacement",
+            (_, true) => "angle",
+            _ => "position",
+        };
+        let gain = drive_gain(rig);
+        let force = ["force", "voltage", "current"];
+        let force = force.iter().find_map(|name| recording.channels.get(*name));
+        Self {
+            time: recording.time.clone(),
+            position: recording.channels.get(position).cloned().unwrap_or_default(),
+            force: force.map(|f| f.iter().map(|f| gain * f).collect()).unwrap_or_default(),
+        }
+    }
+
+    fn samples(&self) -> Samples<'_> {
+        Samples { time: &self.time, position: &self.position, force: &self.force }
+    }
+}
+
+/// Fits by regression, prints it, and writes what can be written.
+pub(super) fn regression(
+    arguments: &FitArgs,
+    rig: &Rig,
+    (recording, holdout): (&Recording, Option<&Recording>),
+    started: Instant,
+) -> Result<Exit, Failure> {
+    let options = Options { by_direction: arguments.by_direction, ..Options::of_rig(rig)? };
+    let columns = Columns::of(rig, recording);
+    let fitted = regress(&columns.samples(), &options)?;
+    let values: Vec<f64> = fitted.coefficients.iter().map(|c| c.value).collect();
+    let held = holdout
+        .map(|other| relative_error(&Columns::of(rig, other).samples(), &options, &values))
+        .transpose()?;
+    let (model, left) = model(rig, &fitted);
+    let mut value = as_json(rig, &fitted, held);
+    value["seconds"] = json!(rounded(started.elapsed().as_secs_f64()));
+    if let Some(out) = &arguments.out {
+        write_whole(&out.join("model.toml"), model.write().as_bytes())?;
+        write_whole(&out.join("fit.json"), format!("{value:#}\n").as_bytes())?;
+    }
+    if arguments.json {
+        output::line(&format!("{value:#}"));
+    } else {
+        for line in lines(rig, &fitted, held) {
+            output::line(&safe(&line));
+        }
+        if !left.is_empty() && arguments.out.is_some() {
+            output::line(&format!(
+                "not in the rig file, which has no place for it: {}",
+                left.join(", ")
+            ));
+        }
+        say_where(arguments.out.as_deref());
+    }
+    Ok(Exit::Done)
+}
+
+/// The rig with the coefficients that it has a place for, and the names of the others.
+fn model(rig: &Rig, fitted: &Regression) -> (Rig, Vec<&'static str>) {
+    let mut model = rig.clone();
+    let mut left = Vec::new();
+    for c in &fitted.coefficients {
+        if model.set(c.term.name, c.value).is_err() {
+            left.push(c.term.name);
+        }
+    }
+    (model, left)
+}
+
+fn as_json(rig: &Rig, fitted: &Regression, held: Option<f64>) -> Value {
+    let p = fitted.coefficients.len();
+    let parameters = fitted.coefficients.iter().map(|c| {
+        let (given, error) = (rig.value(c.term.name), c.standard_error);
+        let interval = [-1.0, 1.0].map(|s| c.value + s * NORMAL * error);
+        let moved = given.is_some_and(|g| (c.value - g).abs() > (2.0 * error).max(0.01 * g.abs()));
+        json!({ "name": c.term.name, "given": given, "found": c.value, "standard_error": error,
+                "classical_error": c.classical_error, "unit": c.term.unit, "moved": moved,
+                "identified": true, "interval": interval })
+    });
+    let correlation: Vec<&[f64]> = fitted.correlation.chunks(p.max(1)).collect();
+    json!({
+        "format": FORMAT,
+        "method": "regression",
+        "parameters": parameters.collect::<Vec<_>>(),
+        "correlation": correlation,
+        "relative_error": fitted.relative_error,
+        "holdout_relative_error": held,
+        "condition": fitted.condition,
+        "cutoff_hz": fitted.cutoff,
+        "lag": fitted.lag,
+    })
+}
+
+fn lines(rig: &Rig, fitted: &Regression, held: Option<f64>) -> Vec<String> {
+    let mut lines = vec![format!(
+        "{}: regression of the driving force, position filtered at {} Hz, {} rows",
+        rig.title,
+        four_digits(fitted.cutoff),
+        fitted.time.len()
+    )];
+    lines.push(String::new());
+    let head = ["given", "found", "± s.e."];
+    lines.push(format!(
+        "{:14} {:>11} {:>11} {:>10}  {:26} unit",
+        "parameter", head[0], head[1], head[2], "95 % interval"
+    ));
+    for c in &fitted.coefficients {
+        let given = rig.value(c.term.name).map_or("–".to_owned(), four_digits);
+        let [found, error] = [c.value, c.standard_error].map(four_digits);
+        let [low, high] = [-1.0, 1.0].map(|s| four_digits(c.value + s * NORMAL * c.standard_error));
+        let interval = format!("{low} … {high}");
+        lines.push(format!(
+            "{:14} {given:>11} {found:>11} {error:>10}  {interval:26} {}",
+            c.term.name, c.term.unit
+        ));
+    }
+    lines.push(String::new());
+    lines.push(format!(
+        "relative force error {} %{}; condition number {}; errors allow for residuals alike over {} rows",
+        four_digits(fitted.relative_error),
+        held.map_or(String::new(), |e| format!(", on the held-out record {} %", four_digits(e))),
+        four_digits(fitted.condition),
+        fitted.lag
+    ));
+    lines
+}
