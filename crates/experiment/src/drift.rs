@@ -281,7 +281,9 @@ fn equal(was: &Value, is: &Value, tolerance: &Tolerance) -> bool {
 #[cfg(test)]
 mod tests {
     use super::drift;
-    use record::{AboutRow, CaseRow, ClaimRow, CurveRow, MeasureRow, OrderRow, Summary};
+    use record::{
+        AboutRow, CaseRow, ClaimRow, CurveRow, MeasureRow, OrderRow, ParameterRow, Summary,
+    };
 
     fn summary(row: CaseRow) -> Summary {
         Summary { cases: vec![row], ..Summary::default() }
@@ -353,6 +355,16 @@ mod tests {
             ..Summary::default()
         };
         assert_eq!(drift(&text("a"), &text("b")).len(), 1);
+    }
+
+    #[test]
+    fn a_fitted_parameter_moves_when_it_moves_by_a_share_of_its_standard_error() {
+        let fitted = |found| Summary {
+            parameters: vec![ParameterRow { found, standard_error: 0.1, ..Default::default() }],
+            ..Summary::default()
+        };
+        let moved = |found| drift(&fitted(1.0), &fitted(found)).len();
+        assert_eq!((moved(1.004), moved(1.006)), (0, 1));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Tables read back as written; records are whole, or known to be damaged.
 
 use record::{
-    CaseRecord, CaseRow, ClaimRow, Found, History, Key, RecordError, Store, Summary, Table,
+    CaseRecord, CaseRow, ClaimRow, FitRow, Found, History, Key, RecordError, Store, Summary, Table,
     write_whole,
 };
 use std::{fs, path::Path};
@@ -78,17 +78,18 @@ fn a_table_that_is_none_is_refused_with_its_file() {
 fn a_summary_reads_back_from_its_files() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path().join("mine");
-    let summary = Summary { name: "mine".to_owned(), cases: vec![case()], ..Summary::default() };
+    let fit = FitRow { fit: "rig".to_owned(), ..FitRow::default() };
+    let cases = vec![case()];
+    let summary = Summary { name: "mine".to_owned(), cases, fits: vec![fit], ..Summary::default() };
     for (file, bytes) in summary.files() {
         assert!(write_whole(&folder.join(file), &bytes).unwrap(), "{file} was there");
         assert!(!write_whole(&folder.join(file), &bytes).unwrap(), "{file} was written twice");
     }
     assert_eq!(Summary::read(&folder).unwrap(), summary);
-    assert_eq!(
-        fs::read_dir(&folder).unwrap().count(),
-        Summary::FILES.len(),
-        "something is left over"
-    );
+    let (there, files) = (fs::read_dir(&folder).unwrap().count(), summary.files());
+    assert_eq!(there, files.len(), "something is left over");
+    let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+    assert!(names.contains(&"fits.csv") && !names.contains(&"models.csv"), "{names:?}");
 }
 
 fn record() -> CaseRecord {

@@ -5,7 +5,7 @@ use crate::number::{self, NONE};
 use record::{FitRow, ModelRow, ParameterRow, Summary};
 
 /// How the table of parameters is read.
-const PARAMETERS_READ: &str = "The interval is the one of 95 % by profile likelihood; a side without a \
+const PARAMETERS_READ: &str = "Given is what the rig file has. The interval is the one of 95 % by profile likelihood; a side without a \
      number was not found, and the record does not identify the parameter on that side. \
      ✗ stands behind an interval that does not hold the truth.";
 
@@ -142,4 +142,30 @@ pub(crate) fn tables(summary: &Summary, fit: &str) -> Vec<(&'static str, &'stati
     .into_iter()
     .filter_map(|(title, reads, grid)| Some((title, reads, grid?)))
     .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{identified, interval};
+    use record::ParameterRow;
+
+    fn row(low: Option<f64>, high: Option<f64>) -> ParameterRow {
+        let identified = low.is_some() && high.is_some();
+        let (found, standard_error, truth) = (1.0, 0.01, Some(1.03));
+        ParameterRow { found, standard_error, low, high, identified, truth, ..Default::default() }
+    }
+
+    #[test]
+    fn an_interval_that_misses_the_truth_is_marked() {
+        assert_eq!(interval(&row(Some(0.98), Some(1.02))), "0.980 to 1.020 ✗");
+        assert_eq!(interval(&row(Some(0.98), Some(1.04))), "0.980 to 1.040");
+    }
+
+    #[test]
+    fn a_parameter_without_a_bound_is_said_to_be_unidentified() {
+        let above = row(Some(0.8), None);
+        assert_eq!(interval(&above), "0.800 to ?");
+        assert_eq!(identified(&above), "no: all above 0.80 fit");
+        assert_eq!(identified(&row(None, None)), "no: any value fits");
+    }
 }

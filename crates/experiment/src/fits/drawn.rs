@@ -23,7 +23,7 @@ pub(crate) fn series(fit: &Fit, panel: &PanelSpec) -> Result<Series, String> {
         return Ok(vec![of("force_1", "F_1"), of("force_2", "F_2")]);
     }
     if panel.show == "input-time" {
-        return Ok(vec![(Which::Record.label().to_owned(), pick(time, &fit.data.input))]);
+        return Ok(vec![(Which::Record.label(fit).to_owned(), pick(time, &fit.data.input))]);
     }
     let record = ["record".to_owned()];
     let names = if panel.of.is_empty() { &record[..] } else { &panel.of[..] };
@@ -45,7 +45,7 @@ pub(crate) fn series(fit: &Fit, panel: &PanelSpec) -> Result<Series, String> {
             "motor-speed-time" => pick(time, &motor),
             _ => pick(time, &motion.q),
         };
-        series.push((which.label().to_owned(), points));
+        series.push((which.label(fit).to_owned(), points));
     }
     Ok(series)
 }

@@ -105,16 +105,13 @@ fn parameters(study: &Fit, found: &Found) -> Vec<ParameterRow> {
 }
 
 fn misfits(study: &Fit, found: &Found) -> Vec<MisfitRow> {
-    let kind = Kind::of(study.rig.kind);
-    let unit = |channel: &str| match (channel, kind) {
-        ("displacement", Some(kind)) => kind.displacement_unit,
-        ("velocity", Some(kind)) => kind.velocity_unit,
-        ("force", Some(kind)) => kind.force_unit,
-        _ => "1",
+    let unit = |channel: &str| {
+        let quantity = Kind::of(study.rig.kind)?.channel(channel)?;
+        quantity.dimensions.first().map(|dimension| dimension.si())
     };
     let row = |m: &identify::fit::Misfit| MisfitRow {
         channel: m.channel.clone(),
-        unit: unit(&m.channel).to_owned(),
+        unit: one(unit(&m.channel).unwrap_or_default()),
         before: m.before,
         after: m.after,
         noise: m.noise,

@@ -30,9 +30,11 @@ impl Which {
     }
 
     /// As a figure labels it.
-    pub(crate) fn label(self) -> &'static str {
+    pub(crate) fn label(self, fit: &Fit) -> &'static str {
         match self {
-            Self::Record => "synthetic record",
+            // Only what was made has a truth.
+            Self::Record if !fit.truth.is_empty() => "synthetic record",
+            Self::Record => "record",
             Self::Given => "tuned by hand",
             Self::Fitted => "fitted",
         }

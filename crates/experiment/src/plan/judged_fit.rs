@@ -28,8 +28,8 @@ pub(super) fn measure(
     })?;
     let subject = subject(&written.what, ("quantity", "of", quantity.takes), index);
     let subject = subject.map_err(|c| c.under("what"))?;
-    let mut unit =
-        quantity.unit_of(identify::rig::Kind::of(fit.rig.kind).is_some_and(|k| k.turns()));
+    let mut unit = quantity
+        .unit_of(identify::rig::Kind::of(fit.rig.kind).is_some_and(identify::rig::Kind::turns));
     if quantity.unit == SPRING {
         unit = "N/m";
     }

@@ -129,7 +129,10 @@ quantity!(
             let [period] = subject.argument("period")?;
             let end = fit.recording.time[all.end - 1];
             let last = Motions::within(&fit.recording.time, [end - period, end]);
-            return Ok(Measured::of(found, height(&motion.q[last])));
+            let mut measured = Measured::of(found, height(&motion.q[last]));
+            // No span is known better than the encoder's step.
+            measured.error = measured.error.max(quantum(fit));
+            return Ok(measured);
         }
         Ok(Measured::of(found, height(&Motions::of(fit, which, 100.0)?.q[all])))
     }
@@ -230,6 +233,12 @@ fn settled(fit: &Fit, subject: &Subject) -> Result<Range<usize>, String> {
     // A period's end is the next one's start: one of the two counts.
     let range = Motions::within(time, [end - count * period + 1e-9 * end, end]);
     Ok(range)
+}
+
+/// The step of the encoder of the displacement; 0 where the rig file does not say it.
+fn quantum(fit: &Fit) -> f64 {
+    let channel = identify::rig::Kind::of(fit.rig.kind).map(|kind| kind.displacement);
+    channel.and_then(|name| fit.recording.quantum.get(name)).copied().unwrap_or(0.0)
 }
 
 /// The slope of the straight line through y against x, by least squares.
