@@ -35,7 +35,7 @@ pub fn candidates(rig: &Rig) -> Vec<(String, Rig)> {
     let viscous = binding::value(rig, "sigma_2").unwrap_or(0.0);
     let with = |name: &str, parameters: Vec<(&str, Parameter)>, sigma_2: f64, free: &[&str]| {
         let mut rig = rig.clone();
-        rig.friction.name = name.to_owned();
+        name.clone_into(&mut rig.friction.name);
         rig.friction.parameters = parameters.into_iter().collect();
         rig.friction.sigma_2 = sigma_2;
         let ours = ["f_c", "f_s", "v_s", "sigma", "gamma", "sigma_0", "sigma_1", "sigma_2"];
@@ -134,7 +134,7 @@ pub(super) fn compare(
     }
     let mut all: Vec<Candidate> = candidates(rig)
         .into_par_iter()
-        .filter_map(|(name, rig)| judged(name, rig, data, (&windows, weights)))
+        .filter_map(|(name, rig)| judged(name, &rig, data, (&windows, weights)))
         .collect();
     all.sort_by(|a, b| a.held_out_error.total_cmp(&b.held_out_error));
     let mut seen = false;
@@ -146,11 +146,11 @@ pub(super) fn compare(
 /// imposed, the record is simulated in one run, and the samples of the other windows do not count.
 fn judged(
     name: String,
-    rig: Rig,
+    rig: &Rig,
     data: &Data,
     (windows, weights): (&[Window], Weights),
 ) -> Option<Candidate> {
-    let base = Problem { weights, ..super::problem(&rig, data).ok()? };
+    let base = Problem { weights, ..super::problem(rig, data).ok()? };
     let (train, judge) = blocks::split(windows);
     let only = |some: &[Window]| {
         if base.closed_loop || data.force.is_some() {

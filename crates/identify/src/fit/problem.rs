@@ -4,7 +4,7 @@ use super::{
     binding::{Free, Scale, given, model},
     data::Data,
     imposed::forces,
-    window::Window,
+    window::{START, Window},
 };
 use crate::{
     Rig,
@@ -59,8 +59,8 @@ pub struct Weights {
 /// One window, simulated.
 #[derive(Debug, Clone)]
 pub struct Piece {
-    /// Displacement [m] and velocity [m/s] at its start.
-    pub start: [f64; 2],
+    /// Its start: see [`START`].
+    pub start: [f64; START],
     /// Its motion; the force [N] in place of the displacement if the motion is imposed.
     pub motion: Motion,
     /// Weighed residuals, sample by sample and channel by channel, then those of the start.
@@ -70,7 +70,7 @@ pub struct Piece {
 /// How the start of a window follows the parameters: from where, by how much more, by how much per variable.
 #[derive(Debug, Clone)]
 pub(super) struct Lead {
-    pub(super) start: [f64; 2],
+    pub(super) start: [f64; START],
     pub(super) by: DMatrix<f64>,
 }
 
@@ -83,13 +83,16 @@ pub(super) struct Slopes {
 /// How well the time of a sample is known, in sampling times.
 const TIMING: f64 = 0.1;
 
+/// What a step may be wrong by, of the noise.
+const QUIET: f64 = 0.002;
+
 /// The residual of a sample without a motion, in standard deviations: far worse than any motion's.
 const NO_MOTION: f64 = 1e4;
 
 impl Problem<'_> {
     /// The number of residuals of a window.
     fn rows(&self, window: &Window) -> usize {
-        window.len() * self.channels() + if self.data.force.is_some() { 0 } else { 2 }
+        window.len() * self.channels() + if self.data.force.is_some() { 0 } else { START }
     }
 
     /// How many residuals a sample has.
@@ -158,7 +161,8 @@ impl Problem<'_> {
     }
 
     /// The state of the contact at a window's start follows from how it came there.
-    fn state<D: Real>(&self, model: &Model<D>, window: &Window, q: D, v: D) -> Start<D> {
+    fn state<D: Real>(&self, model: &Model<D>, window: &Window, start: [D; START]) -> Start<D> {
+        let [q, v, shift] = start;
         // By the nominal memory: the answer must not jump where a parameter passes a limit.
         let z = if window.run_up.abs() > FORGOTTEN * self.memory {
             model.contact.sliding(window.run_up.signum() * v.re().abs())
@@ -166,11 +170,11 @@ impl Problem<'_> {
             let u = D::from(self.data.input[window.first]);
             model.contact.holding(model.drive(u, q, v))
         };
-        Start { q, v, z }
+        Start { q, v, z: model.contact.shifted(z, shift) }
     }
 
     /// Simulates one window from `start` at the variables `x`.
-    pub fn piece(&self, x: &[f64], window: &Window, start: [f64; 2]) -> Piece {
+    pub fn piece(&self, x: &[f64], window: &Window, start: [f64; START]) -> Piece {
         let model = self.model(x);
         let mut residuals = Vec::with_capacity(self.rows(window));
         let range = window.first..window.end;
@@ -189,19 +193,12 @@ impl Problem<'_> {
             );
             return Piece { start, motion, residuals };
         }
-        let state = self.state(&model, window, start[0], start[1]);
+        let state = self.state(&model, window, start);
         let spans = self.tolerance();
         let motion = march(&model, &self.drive(window), &self.data.time[range], &state, &spans);
         let motion = motion.unwrap_or_default();
         for i in 0..window.len() {
-            let seen = |values: &[f64]| values.get(i).copied();
-            self.sample(
-                window.first + i,
-                seen(&motion.q),
-                seen(&motion.v),
-                seen(&motion.u),
-                &mut residuals,
-            );
+            self.sample(window.first + i, &motion, i, &mut residuals);
         }
         for (i, spread) in window.spread.iter().enumerate() {
             residuals.push((start[i] - window.start[i]) / spread);
@@ -209,20 +206,21 @@ impl Problem<'_> {
         Piece { start, motion, residuals }
     }
 
-    fn sample(&self, i: usize, q: Option<f64>, v: Option<f64>, u: Option<f64>, out: &mut Vec<f64>) {
+    /// The residuals of sample `i`, of the `motion` at place `at`; one without a motion is far off.
+    fn sample(&self, i: usize, motion: &Motion, at: usize, out: &mut Vec<f64>) {
         let share = self.share(i);
-        let mut push = |value: Option<f64>, seen: f64, weight: f64| {
-            let residual = value.map_or(NO_MOTION, |value| (value - seen) / weight);
+        let mut push = |values: &[f64], seen: f64, weight: f64| {
+            let residual = values.get(at).map_or(NO_MOTION, |value| (value - seen) / weight);
             out.push(share * if residual.is_finite() { residual } else { NO_MOTION });
         };
         if let Some(seen) = &self.data.displacement {
-            push(q, seen.values[i], self.weights.displacement);
+            push(&motion.q, seen.values[i], self.weights.displacement);
         }
         if let Some(seen) = &self.data.velocity {
-            push(v, seen.values[i], self.velocity_weight(&seen.values, i));
+            push(&motion.v, seen.values[i], self.velocity_weight(&seen.values, i));
         }
         if self.closed_loop {
-            push(u, self.data.input[i], self.weights.input);
+            push(&motion.u, self.data.input[i], self.weights.input);
         }
     }
 
@@ -239,17 +237,27 @@ impl Problem<'_> {
         self.weights.velocity.hypot(TIMING * 0.5 * (values[after] - values[before]))
     }
 
-    /// What a step may be wrong by.
+    /// What a step may be wrong by: little of the noise, for steps add up, and of the spans neither more than
+    /// [`Self::tolerance`] nor a hundredth of it.
     fn tolerance(&self) -> Tolerance {
         let q = self.data.displacement.as_ref().map_or(1.0, |d| d.span.max(d.noise));
         let v = self.data.speed().max(1e-12);
         let steps = 8 * self.data.time.len() + 10_000;
-        Tolerance { q: self.tolerance * q, v: self.tolerance * v, z: self.tolerance, steps }
+        // Coulomb friction stops and starts at once, and every such instant is found to this.
+        let quiet = if self.rig.friction.name == "coulomb" { 0.1 * QUIET } else { QUIET };
+        let of = |span: f64, noise: f64| {
+            let most = self.tolerance * span;
+            (quiet * noise).clamp(0.01 * most, most)
+        };
+        let noise =
+            if self.data.velocity.is_some() { self.weights.velocity } else { f64::INFINITY };
+        let [q, v] = [of(q, self.weights.displacement), of(v, noise)];
+        Tolerance { q, v, z: self.tolerance, steps }
     }
 
     /// The derivatives of a window's residuals by the variables `x`, and by its start.
     pub(super) fn slopes(&self, x: &[f64], window: &Window, piece: &Piece) -> Slopes {
-        let columns = self.free.len() + 2;
+        let columns = self.free.len() + START;
         let mut jacobian = DMatrix::zeros(self.rows(window), columns);
         match columns {
             0..=3 => self.columns::<4>(x, window, piece, &mut jacobian),
@@ -259,26 +267,27 @@ impl Problem<'_> {
         }
         let n = jacobian.nrows();
         if self.data.force.is_some() {
-            let lead = Lead { start: piece.start, by: DMatrix::zeros(2, self.free.len()) };
+            let lead = Lead { start: piece.start, by: DMatrix::zeros(START, self.free.len()) };
             return Slopes { jacobian: jacobian.columns(0, self.free.len()).into_owned(), lead };
         }
         for (i, spread) in window.spread.iter().enumerate() {
-            jacobian[(n - 2 + i, self.free.len() + i)] = spread.recip();
+            jacobian[(n - START + i, self.free.len() + i)] = spread.recip();
         }
-        let by_start = jacobian.columns(self.free.len(), 2).into_owned();
+        let by_start = jacobian.columns(self.free.len(), START).into_owned();
         let by_x = jacobian.columns(0, self.free.len()).into_owned();
         // The columns differ in size by the units of q and v; their directions are what counts.
-        let sizes = [by_start.column(0).norm(), by_start.column(1).norm()];
-        let unit = DMatrix::from_fn(n, 2, |i, j| by_start[(i, j)] / sizes[j]);
+        let sizes: [f64; START] = std::array::from_fn(|j| by_start.column(j).norm());
+        let unit = DMatrix::from_fn(n, START, |i, j| by_start[(i, j)] / sizes[j]);
         let qr = unit.qr();
         let (q, r) = (qr.q(), qr.r());
-        let inverse = r.try_inverse().unwrap_or_else(|| DMatrix::zeros(2, 2));
+        let inverse = r.try_inverse().unwrap_or_else(|| DMatrix::zeros(START, START));
         let residuals = DMatrix::from_column_slice(n, 1, &piece.residuals);
         let along = q.transpose() * &by_x;
-        let scaled = |m: DMatrix<f64>| DMatrix::from_fn(2, m.ncols(), |i, j| -m[(i, j)] / sizes[i]);
+        let scaled =
+            |m: DMatrix<f64>| DMatrix::from_fn(START, m.ncols(), |i, j| -m[(i, j)] / sizes[i]);
         let more = scaled(&inverse * (q.transpose() * residuals));
         let by = scaled(&inverse * &along);
-        let start = [piece.start[0] + more[(0, 0)], piece.start[1] + more[(1, 0)]];
+        let start = std::array::from_fn(|i| piece.start[i] + more[(i, 0)]);
         Slopes { jacobian: by_x - q * along, lead: Lead { start, by } }
     }
 
@@ -290,7 +299,7 @@ impl Problem<'_> {
         jacobian: &mut DMatrix<f64>,
     ) {
         let mut first = 0;
-        while first < self.free.len() + 2 {
+        while first < self.free.len() + START {
             self.some_columns::<P>(x, window, piece, (first, jacobian));
             first += P - 1;
         }
@@ -331,8 +340,8 @@ impl Problem<'_> {
             _ => DualSVec64::from(value),
         };
         let n = self.free.len();
-        let (q, v) = (seed(piece.start[0], n), seed(piece.start[1], n + 1));
-        let state = self.state(&model, window, q, v);
+        let start = std::array::from_fn(|i| seed(piece.start[i], n + i));
+        let state = self.state(&model, window, start);
         let channels = self.channels();
         let tape: &Tape = &piece.motion.tape;
         if tape.samples() != window.len() {
@@ -364,8 +373,9 @@ impl Problem<'_> {
                     let lead = &leads[w];
                     let mut start = lead.start;
                     for (i, (x, x_0)) in x.iter().zip(x_0).enumerate() {
-                        start[0] += lead.by[(0, i)] * (x - x_0);
-                        start[1] += lead.by[(1, i)] * (x - x_0);
+                        for (j, start) in start.iter_mut().enumerate() {
+                            *start += lead.by[(j, i)] * (x - x_0);
+                        }
                     }
                     start
                 });
@@ -377,39 +387,6 @@ impl Problem<'_> {
     /// The derivatives of all `pieces`.
     pub(super) fn all_slopes(&self, x: &[f64], pieces: &[Piece]) -> Vec<Slopes> {
         self.windows.par_iter().zip(pieces).map(|(w, piece)| self.slopes(x, w, piece)).collect()
-    }
-
-    /// Weighed residuals of the load cells against the measured angle, F₁ = F₁₀ + k₁rθ and F₂ = F₂₀ − k₂rθ, and
-    /// their derivatives.
-    pub(super) fn loads(&self, x: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
-        let (Some(loads), Some(angle)) = (&self.data.loads, &self.data.displacement) else {
-            return (Vec::new(), DMatrix::zeros(0, self.free.len()));
-        };
-        let value = |name: &str| {
-            let free = self.free.iter().position(|f| f.name == name);
-            (free.map_or_else(|| self.rig.plant[name], |i| self.free[i].value(x[i])), free)
-        };
-        let r = value("radius").0;
-        let samples: Vec<usize> = self.windows.iter().flat_map(|w| w.first..w.end).collect();
-        let mut jacobian = DMatrix::zeros(2 * samples.len(), self.free.len());
-        let mut residuals = Vec::with_capacity(2 * samples.len());
-        for (cell, side) in [(0, 1.0), (1, -1.0)] {
-            let (k, k_free) = value(["k_1", "k_2"][cell]);
-            let (f, f_free) = value(["f_10", "f_20"][cell]);
-            for i in &samples {
-                let stretch = side * r * angle.values[*i];
-                let row = residuals.len();
-                residuals
-                    .push((f + k * stretch - loads[cell].values[*i]) / self.weights.loads[cell]);
-                for (free, by) in [(k_free, stretch), (f_free, 1.0)] {
-                    if let Some(j) = free {
-                        let slope = self.free[j].slope(self.free[j].value(x[j]));
-                        jacobian[(row, j)] = by * slope / self.weights.loads[cell];
-                    }
-                }
-            }
-        }
-        (residuals, jacobian)
     }
 }
 

@@ -45,8 +45,9 @@ pub struct Patience {
 /// Enough for the last fit.
 pub const TO_THE_END: Patience = Patience { misfit: 0.05, simulations: 40 };
 
-/// The cosine between the residuals and any column of the Jacobian above which a search has not converged.
-const SLANTED: f64 = 2e-3;
+/// The slope of the misfit along any variable above which a search has not converged, in that variable's standard
+/// errors as if it were the only one.
+const SLANTED: f64 = 0.3;
 
 struct Search<'p, 'd> {
     problem: &'p Problem<'d>,
@@ -173,7 +174,8 @@ fn end(search: &Search<'_, '_>, reason: &TerminationReason) -> End {
     let size = residuals.norm().max(f64::MIN_POSITIVE);
     let slanted = jacobian.column_iter().any(|column| {
         let long = column.norm();
-        long > 0.0 && (column.dot(&residuals) / (long * size)).abs() > SLANTED
+        let errors = (residuals.len() as f64).sqrt() * column.dot(&residuals) / (long * size);
+        long > 0.0 && errors.abs() > SLANTED
     });
     if slanted && size > 1e-6 { End::Stalled } else { End::Converged }
 }

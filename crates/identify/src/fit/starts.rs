@@ -22,11 +22,10 @@ pub(super) fn nominal(problem: &Problem<'_>) -> Vec<f64> {
         .map(|free| match free.scale {
             Scale::Linear(_) => free.variable(free.given),
             Scale::Above(_) if free.given > f_c => free.variable(free.given - f_c),
-            Scale::Above(_) => 1.0,
             Scale::Logarithm(_) | Scale::InverseSquare(_) if free.given > 0.0 => {
                 free.variable(free.given)
             }
-            Scale::Logarithm(_) | Scale::InverseSquare(_) => 1.0,
+            Scale::Above(_) | Scale::Logarithm(_) | Scale::InverseSquare(_) => 1.0,
         })
         .collect()
 }

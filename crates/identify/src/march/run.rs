@@ -203,7 +203,7 @@ impl<'a> Walker<'a> {
                 let grows = attempt.as_ref().map_or(0.2, |a| growth(a.error));
                 match attempt {
                     Some(attempt) if enough || taken => {
-                        self.take(attempt, tape);
+                        self.take(&attempt, tape);
                         self.h = h * grows;
                         break;
                     }
@@ -219,7 +219,7 @@ impl<'a> Walker<'a> {
         Ok(())
     }
 
-    fn take(&mut self, attempt: Attempt, tape: &mut Tape) {
+    fn take(&mut self, attempt: &Attempt, tape: &mut Tape) {
         (self.q, self.v) = (attempt.q, attempt.v);
         self.z.copy_from_slice(&self.z_stage);
         tape.steps.push(attempt.step);
@@ -253,7 +253,7 @@ impl<'a> Walker<'a> {
             q = base[0] + gh * v;
             self.states_of_stage(s, gh, v);
         }
-        let error = self.error(h, [step.v, v_dot]);
+        let error = self.error(h, [step.v, v_dot]).max(self.unseen(&step));
         (q.is_finite() && v.is_finite()).then_some(Attempt { step, q, v, error })
     }
 
@@ -266,6 +266,23 @@ impl<'a> Walker<'a> {
         for (i, z) in self.z_stage.iter().enumerate() {
             self.z_dot[s][i] = (z - base[i]) / gh;
         }
+    }
+
+    /// What a step with Coulomb friction may be wrong by, of what is allowed, where the plant starts, stops or turns
+    /// back in it: its stages see only the force after that.
+    fn unseen(&self, step: &Step) -> f64 {
+        if self.model.contact.dry().is_none() {
+            return 0.0;
+        }
+        let turned = |v: &f64| v * self.v <= 0.0;
+        let lost = if self.v == 0.0 {
+            step.v[0]
+        } else if step.v.iter().any(turned) {
+            self.v
+        } else {
+            0.0
+        };
+        lost.abs() / self.tolerance.v
     }
 
     /// The estimated error of a step, of what is allowed.

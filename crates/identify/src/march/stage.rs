@@ -83,9 +83,9 @@ fn root(mut f: impl FnMut(f64) -> (f64, f64), guess: f64, side: Option<f64>) -> 
             return Some(v);
         }
         if value > 0.0 {
-            high = v
+            high = v;
         } else {
-            low = v
+            low = v;
         }
         let step = -value / slope;
         let mut next = v + step;
