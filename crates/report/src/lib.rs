@@ -20,6 +20,7 @@ mod claims;
 mod error;
 mod escape;
 mod figures;
+mod fits;
 mod grid;
 mod html;
 mod markdown;
