@@ -20,6 +20,7 @@ mod claims;
 mod error;
 mod escape;
 mod figures;
+mod fit_page;
 mod grid;
 mod html;
 mod markdown;
@@ -30,6 +31,7 @@ mod select;
 
 pub use error::ReportError;
 pub use figures::{Datum, Drawing, FIGURES, FigureKind};
+pub use fit_page::{FitCurve, FitFigure, FitPage, FitPanel, FitPart, fit_page};
 pub use plot::Panel;
 
 use across::Across;

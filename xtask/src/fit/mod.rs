@@ -1,5 +1,6 @@
 //! `fit` and `simulate`: a rig's model and a record of its drive.
 
+mod page;
 mod regressed;
 mod shown;
 
@@ -81,6 +82,8 @@ pub(crate) fn fit(arguments: &FitArgs) -> Result<Exit, Failure> {
     value["seconds"] = json!(rounded(started.elapsed().as_secs_f64()));
     if let Some(out) = &arguments.out {
         leave(out, &fitted.rig, &value, &fitted.traces)?;
+        let page = page::of_fit(&rig, &data, &fitted, held.as_ref());
+        write_whole(&out.join("fit.html"), page.as_bytes())?;
     }
     if arguments.json {
         output::line(&format!("{value:#}"));

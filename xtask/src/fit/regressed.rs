@@ -1,6 +1,6 @@
 //! `fit --method regression`: filtered position, central differences, least squares.
 
-use super::{FORMAT, rounded, say_where};
+use super::{FORMAT, page, rounded, say_where};
 use crate::{
     cli::FitArgs,
     exit::{Exit, Failure},
@@ -11,7 +11,8 @@ use experiment::four_digits;
 use identify::{
     Recording, Rig,
     regression::{
-        Options, Regression, RegressionError, Samples, drive_gain, regress, relative_error,
+        Coefficient, Options, Regression, RegressionError, Samples, drive_gain, regress,
+        relative_error,
     },
     rig::Kind,
 };
@@ -79,6 +80,8 @@ pub(super) fn regression(
     if let Some(out) = &arguments.out {
         write_whole(&out.join("model.toml"), model.write().as_bytes())?;
         write_whole(&out.join("fit.json"), format!("{value:#}\n").as_bytes())?;
+        let page = page::of_regression(&rig.title, summary(&fitted, held), rows(rig, &fitted));
+        write_whole(&out.join("fit.html"), page.as_bytes())?;
     }
     if arguments.json {
         output::line(&format!("{value:#}"));
@@ -113,8 +116,7 @@ fn as_json(rig: &Rig, fitted: &Regression, held: Option<f64>) -> Value {
     let p = fitted.coefficients.len();
     let parameters = fitted.coefficients.iter().map(|c| {
         let (given, error) = (rig.value(c.term.name), c.standard_error);
-        let interval = [-1.0, 1.0].map(|s| c.value + s * NORMAL * error);
-        let moved = given.is_some_and(|g| (c.value - g).abs() > (2.0 * error).max(0.01 * g.abs()));
+        let (interval, moved) = (bounds(c), moved(given, c));
         json!({ "name": c.term.name, "given": given, "found": c.value, "standard_error": error,
                 "classical_error": c.classical_error, "unit": c.term.unit, "moved": moved,
                 "identified": true, "interval": interval })
@@ -149,7 +151,7 @@ fn lines(rig: &Rig, fitted: &Regression, held: Option<f64>) -> Vec<String> {
     for c in &fitted.coefficients {
         let given = rig.value(c.term.name).map_or("–".to_owned(), four_digits);
         let [found, error] = [c.value, c.standard_error].map(four_digits);
-        let [low, high] = [-1.0, 1.0].map(|s| four_digits(c.value + s * NORMAL * c.standard_error));
+        let [low, high] = bounds(c).map(four_digits);
         let interval = format!("{low} … {high}");
         lines.push(format!(
             "{:14} {given:>11} {found:>11} {error:>10}  {interval:26} {}",
@@ -157,12 +159,43 @@ fn lines(rig: &Rig, fitted: &Regression, held: Option<f64>) -> Vec<String> {
         ));
     }
     lines.push(String::new());
-    lines.push(format!(
+    lines.push(summary(fitted, held));
+    lines
+}
+
+/// What the regression leaves of the force, in a sentence.
+fn summary(fitted: &Regression, held: Option<f64>) -> String {
+    format!(
         "relative force error {} %{}; condition number {}; errors allow for residuals alike over {} rows",
         four_digits(fitted.relative_error),
         held.map_or(String::new(), |e| format!(", on the held-out record {} %", four_digits(e))),
         four_digits(fitted.condition),
         fitted.lag
-    ));
-    lines
+    )
+}
+
+/// The rows of the page's table.
+fn rows(rig: &Rig, fitted: &Regression) -> Vec<Vec<String>> {
+    let row = |c: &Coefficient| {
+        let given = rig.value(c.term.name);
+        let [low, high] = bounds(c).map(four_digits);
+        vec![
+            format!("{} [{}]", c.term.name, c.term.unit),
+            given.map_or("–".to_owned(), four_digits),
+            format!("{} ± {}", four_digits(c.value), four_digits(c.standard_error)),
+            format!("{low} … {high}"),
+            if moved(given, c) { "yes" } else { "no" }.to_owned(),
+        ]
+    };
+    fitted.coefficients.iter().map(row).collect()
+}
+
+/// The 95 % interval of a coefficient.
+fn bounds(c: &Coefficient) -> [f64; 2] {
+    [-1.0, 1.0].map(|s| c.value + s * NORMAL * c.standard_error)
+}
+
+/// Whether a coefficient lies further from the value given than two standard errors and one per cent.
+fn moved(given: Option<f64>, c: &Coefficient) -> bool {
+    given.is_some_and(|g| (c.value - g).abs() > (2.0 * c.standard_error).max(0.01 * g.abs()))
 }

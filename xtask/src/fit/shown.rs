@@ -38,7 +38,8 @@ pub(super) fn way(way: Way, windows: usize) -> String {
     }
 }
 
-fn ended(end: End) -> &'static str {
+/// How the search ended, in words.
+pub(super) fn ended(end: End) -> &'static str {
     match end {
         End::Converged => "converged",
         End::Stalled => "stopped short of a minimum",
@@ -80,7 +81,7 @@ pub(super) fn as_json(rig: &Rig, fit: &Fit, held: Option<&Held>) -> Value {
 }
 
 /// The misfit of a record not fitted, before and after.
-fn paired(before: &Simulated, after: &Simulated) -> Vec<Misfit> {
+pub(super) fn paired(before: &Simulated, after: &Simulated) -> Vec<Misfit> {
     let pairs = before.gap.iter().zip(&after.gap);
     pairs.map(|(before, after)| Misfit { before: before.before, ..after.clone() }).collect()
 }
@@ -147,7 +148,7 @@ fn row(rig: &Rig, p: &Estimate) -> String {
 }
 
 /// What the record cannot tell of a parameter.
-fn untold(rig: &Rig, p: &Estimate) -> Option<String> {
+pub(super) fn untold(rig: &Rig, p: &Estimate) -> Option<String> {
     if p.identified {
         return None;
     }
@@ -162,7 +163,7 @@ fn untold(rig: &Rig, p: &Estimate) -> Option<String> {
 }
 
 /// The pairs of parameters that this record hardly tells apart.
-fn correlated(fit: &Fit) -> Vec<String> {
+pub(super) fn correlated(fit: &Fit) -> Vec<String> {
     let mut all = Vec::new();
     for (i, a) in fit.parameters.iter().enumerate() {
         for (j, b) in fit.parameters.iter().enumerate().skip(i + 1) {
