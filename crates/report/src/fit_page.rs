@@ -66,8 +66,20 @@ pub struct FitCurve {
     pub name: String,
     /// Its points.
     pub points: Vec<(f64, f64)>,
-    /// Whether the axes must hold all of it; one that need not may leave the panel.
-    pub whole: bool,
+    /// What it shows.
+    pub role: FitRole,
+}
+
+/// What a curve shows; it looks the same in every figure.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum FitRole {
+    /// The record.
+    #[default]
+    Measured,
+    /// The model before the fit, which may leave the panel.
+    Before,
+    /// The model after the fit.
+    After,
 }
 
 /// Renders the page: one HTML file without network and script.
@@ -161,7 +173,7 @@ const MOST: usize = 140_000;
 fn drawn(chart: &mut Chart) -> Result<crate::Panel, String> {
     for coarse in 0..=8 {
         chart.coarse = coarse;
-        let panel = chart.draw().map_err(|fault| fault.to_string())?;
+        let panel = chart.draw()?;
         if panel.body.len() <= MOST {
             return Ok(panel);
         }
@@ -169,11 +181,21 @@ fn drawn(chart: &mut Chart) -> Result<crate::Panel, String> {
     Err(format!("more points than {} kB of picture hold", MOST / 1000))
 }
 
-/// The look of what was measured, of what was given and of what was fitted: the last is told by its dash, too.
-const LOOKS: [(u8, u8); 3] = [(2, 0), (3, 2), (1, 1)];
+impl FitRole {
+    /// Colour and dash tell it from the others.
+    fn look(self) -> Look {
+        let (colour, dash) = match self {
+            Self::Measured => (2, 0),
+            Self::Before => (3, 2),
+            Self::After => (1, 1),
+        };
+        Look { dash, ..Look::filled(colour) }
+    }
+}
 
 fn chart(panel: &FitPanel, over_time: bool) -> Chart {
-    let points = || panel.curves.iter().filter(|c| c.whole).flat_map(|c| &c.points);
+    let points =
+        || panel.curves.iter().filter(|c| c.role != FitRole::Before).flat_map(|c| &c.points);
     let x = Axis::linear(&panel.x, points().map(|p| p.0)).checked();
     let noise = panel.noise.into_iter().flat_map(|n| [-n, n]);
     let heights = points().map(|p| p.1).chain(noise.clone());
@@ -182,16 +204,12 @@ fn chart(panel: &FitPanel, over_time: bool) -> Chart {
     let lines: Vec<Line> = panel
         .curves
         .iter()
-        .enumerate()
-        .map(|(n, curve)| {
-            let (colour, dash) = LOOKS[n % LOOKS.len()];
-            Line {
-                name: curve.name.clone(),
-                note: String::new(),
-                look: Look { dash, ..Look::filled(colour) },
-                points: curve.points.clone(),
-                marks: false,
-            }
+        .map(|curve| Line {
+            name: curve.name.clone(),
+            note: String::new(),
+            look: curve.role.look(),
+            points: curve.points.clone(),
+            marks: false,
         })
         .collect();
     Chart {
@@ -210,7 +228,8 @@ fn chart(panel: &FitPanel, over_time: bool) -> Chart {
 fn widened(mut axis: Axis, panel: &FitPanel) -> Axis {
     let half = 0.5 * (axis.to - axis.from);
     let (low, high) = (axis.from - half, axis.to + half);
-    let others = panel.curves.iter().filter(|curve| !curve.whole).flat_map(|curve| &curve.points);
+    let others =
+        panel.curves.iter().filter(|c| c.role == FitRole::Before).flat_map(|curve| &curve.points);
     for y in others.map(|point| point.1).filter(|y| y.is_finite()) {
         axis.from = axis.from.min(y.max(low));
         axis.to = axis.to.max(y.min(high));
@@ -224,16 +243,19 @@ mod tests {
 
     fn page() -> FitPage {
         let wave = |scale: f64| (0..500).map(move |i| (f64::from(i), scale * f64::from(i).sin()));
-        let curve = |name: &str, scale: f64, whole| FitCurve {
+        let curve = |name: &str, scale: f64, role| FitCurve {
             name: name.to_owned(),
             points: wave(scale).collect(),
-            whole,
+            role,
         };
         let panel = FitPanel {
             title: "<b>angle".to_owned(),
             x: "t [s]".to_owned(),
             y: "\u{1b}angle [rad]".to_owned(),
-            curves: vec![curve("measured", 1.0, true), curve("before", 1e9, false)],
+            curves: vec![
+                curve("measured", 1.0, FitRole::Measured),
+                curve("before", 1e9, FitRole::Before),
+            ],
             noise: Some(0.1),
         };
         let figure = FitFigure {

@@ -31,7 +31,7 @@ mod select;
 
 pub use error::ReportError;
 pub use figures::{Datum, Drawing, FIGURES, FigureKind};
-pub use fit_page::{FitCurve, FitFigure, FitPage, FitPanel, FitPart, fit_page};
+pub use fit_page::{FitCurve, FitFigure, FitPage, FitPanel, FitPart, FitRole, fit_page};
 pub use plot::Panel;
 
 use across::Across;

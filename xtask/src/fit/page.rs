@@ -1,7 +1,7 @@
 //! The page of a fit for people: what came out, in tables and figures.
 
 use super::Held;
-use super::shown::{self, correlated, paired, unit, untold, way};
+use super::shown::{self, correlated, paired, sure, unit, untold, way};
 use crate::recorded::safe;
 use experiment::four_digits;
 use identify::{
@@ -10,7 +10,7 @@ use identify::{
     regression::drive_gain,
     rig::Kind,
 };
-use report::{FitCurve, FitFigure, FitPage, FitPanel, FitPart};
+use report::{FitCurve, FitFigure, FitPage, FitPanel, FitPart, FitRole};
 
 /// How many of a channel's noises hold nearly all of it [1].
 const NEARLY_ALL: f64 = 2.0;
@@ -58,11 +58,12 @@ fn opening(rig: &Rig, fit: &Fit) -> String {
 
 fn parameters(rig: &Rig, fit: &Fit) -> FitPart {
     let row = |p: &Estimate| {
-        let bootstrap = p.bootstrap.map_or("–".to_owned(), |[low, high]| between(low, high));
+        let error = p.standard_error;
+        let bootstrap = p.bootstrap.map_or("–".to_owned(), |ends| between(ends, error));
         vec![
             named(&p.name, rig.unit(&p.name)),
             four_digits(p.given),
-            format!("{} ± {}", four_digits(p.found), four_digits(p.standard_error)),
+            format!("{} ± {}", sure(p.found, error), four_digits(error)),
             interval(p),
             bootstrap,
             if p.moved { "yes" } else { "no" }.to_owned(),
@@ -94,20 +95,19 @@ fn named(name: &str, unit: &str) -> String {
     if unit.is_empty() || unit == "1" { name.to_owned() } else { format!("{name} [{unit}]") }
 }
 
-fn between(low: f64, high: f64) -> String {
-    format!("{} … {}", four_digits(low), four_digits(high))
+fn between([low, high]: [f64; 2], error: f64) -> String {
+    format!("{} … {}", sure(low, error), sure(high, error))
 }
 
 /// The interval of a parameter, a side that is open said in words.
 fn interval(p: &Estimate) -> String {
+    let error = p.standard_error;
     match p.interval {
-        [Some(low), Some(high)] => between(low, high),
-        [Some(low), None] => format!("above {}, no upper bound", four_digits(low)),
-        [None, Some(high)] => format!("below {}, no lower bound", four_digits(high)),
+        [Some(low), Some(high)] => between([low, high], error),
+        [Some(low), None] => format!("above {}, no upper bound", sure(low, error)),
+        [None, Some(high)] => format!("below {}, no lower bound", sure(high, error)),
         // Where none was asked for, the standard error makes one.
-        [None, None] if p.identified => {
-            format!("{} (from s.e.)", between(p.asymptotic[0], p.asymptotic[1]))
-        }
+        [None, None] if p.identified => format!("{} (from s.e.)", between(p.asymptotic, error)),
         [None, None] => "no bound on either side".to_owned(),
     }
 }
@@ -176,9 +176,9 @@ fn models(fit: &Fit) -> FitPart {
     }
 }
 
-fn curve(name: &str, x: &[f64], y: &[f64], whole: bool) -> FitCurve {
+fn curve(name: &str, x: &[f64], y: &[f64], role: FitRole) -> FitCurve {
     let points = x.iter().copied().zip(y.iter().copied()).collect();
-    FitCurve { name: name.to_owned(), points, whole }
+    FitCurve { name: name.to_owned(), points, role }
 }
 
 fn histories(rig: &Rig, fit: &Fit) -> FitFigure {
@@ -186,9 +186,9 @@ fn histories(rig: &Rig, fit: &Fit) -> FitFigure {
         x: "t [s]".to_owned(),
         y: named(&t.channel, unit(rig, &t.channel)),
         curves: vec![
-            curve("measured", &t.time, &t.measured, true),
-            curve("before", &t.time, &t.before, false),
-            curve("after", &t.time, &t.after, true),
+            curve("measured", &t.time, &t.measured, FitRole::Measured),
+            curve("before", &t.time, &t.before, FitRole::Before),
+            curve("after", &t.time, &t.after, FitRole::After),
         ],
         ..FitPanel::default()
     };
@@ -215,7 +215,7 @@ fn residuals(rig: &Rig, fit: &Fit) -> Option<FitFigure> {
         FitPanel {
             x: "t [s]".to_owned(),
             y: format!("{}, measured less after", named(&t.channel, unit(rig, &t.channel))),
-            curves: vec![curve("left", &t.time, &left, true)],
+            curves: vec![curve("left", &t.time, &left, FitRole::Measured)],
             noise,
             ..FitPanel::default()
         }
@@ -252,13 +252,13 @@ fn loops(rig: &Rig, data: &Data, fit: &Fit) -> Option<FitFigure> {
     } else {
         [format!("driving {what} [{force_unit}]"), named(&first.channel, unit(rig, &first.channel))]
     };
-    let panel = |title: &str, model: (Vec<f64>, Vec<f64>), whole: bool| FitPanel {
+    let panel = |title: &str, model: (Vec<f64>, Vec<f64>), role| FitPanel {
         title: title.to_owned(),
         x: x.clone(),
         y: y.clone(),
         curves: vec![
-            curve("measured", &measured.0, &measured.1, true),
-            curve(title, &model.0, &model.1, whole),
+            curve("measured", &measured.0, &measured.1, FitRole::Measured),
+            curve(title, &model.0, &model.1, role),
         ],
         noise: None,
     };
@@ -271,7 +271,10 @@ fn loops(rig: &Rig, data: &Data, fit: &Fit) -> Option<FitFigure> {
         } else {
             format!("The {} against the driving {what}, before and after the fit.", first.channel)
         },
-        panels: vec![panel("before", before, false), panel("after", after, true)],
+        panels: vec![
+            panel("before", before, FitRole::Before),
+            panel("after", after, FitRole::After),
+        ],
         over_time: false,
     })
 }

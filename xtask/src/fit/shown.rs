@@ -134,12 +134,31 @@ pub(super) fn lines(rig: &Rig, fit: &Fit, held: Option<&Held>) -> Vec<String> {
     lines
 }
 
+/// A value with as many digits as its error makes sense of: to two digits of the error.
+pub(super) fn sure(value: f64, error: f64) -> String {
+    let ratio = value.abs() / error;
+    if !(error > 0.0 && error.is_finite() && ratio.is_finite() && ratio > 100.0) {
+        return four_digits(value);
+    }
+    let digits = (exponent(ratio) + 1).clamp(0, 15);
+    let short = (1e-3..1e6).contains(&value.abs());
+    let [digits, decimals] =
+        [digits, digits - exponent(value)].map(|n| usize::try_from(n).unwrap_or(0));
+    if short { format!("{value:.decimals$}") } else { format!("{value:.digits$e}") }
+}
+
+/// The decimal exponent of a number.
+fn exponent(value: f64) -> i32 {
+    format!("{value:e}").split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0)
+}
+
 fn row(rig: &Rig, p: &Estimate) -> String {
-    let side = |x: Option<f64>, none: &str| x.map_or(none.to_owned(), four_digits);
+    let side =
+        |x: Option<f64>, none: &str| x.map_or(none.to_owned(), |x| sure(x, p.standard_error));
     let interval =
         format!("{} … {}", side(p.interval[0], "no bound"), side(p.interval[1], "no bound"));
-    let numbers = [p.given, p.found, p.standard_error].map(four_digits);
-    let [given, found, error] = numbers;
+    let [given, error] = [p.given, p.standard_error].map(four_digits);
+    let found = sure(p.found, p.standard_error);
     format!(
         "{:14} {given:>11} {found:>11} {error:>10}  {interval:26} {}",
         p.name,
