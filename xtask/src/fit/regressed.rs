@@ -1,6 +1,6 @@
 //! `fit --method regression`: filtered position, central differences, least squares.
 
-use super::{FORMAT, page, rounded, say_where};
+use super::{FORMAT, of_file, page, rounded, say_where};
 use crate::{
     cli::FitArgs,
     exit::{Exit, Failure},
@@ -19,12 +19,6 @@ use identify::{
 use record::write_whole;
 use serde_json::{Value, json};
 use std::time::Instant;
-
-impl From<RegressionError> for Failure {
-    fn from(error: RegressionError) -> Self {
-        Self { exit: Exit::Input, error: error.into() }
-    }
-}
 
 /// The 97.5 % quantile of the normal distribution.
 const NORMAL: f64 = 1.959_963_984_540_054;
@@ -67,13 +61,17 @@ pub(super) fn regression(
     (recording, holdout): (&Recording, Option<&Recording>),
     started: Instant,
 ) -> Result<Exit, Failure> {
-    let options = Options { by_direction: arguments.by_direction, ..Options::of_rig(rig)? };
+    let usual = Options::of_rig(rig).map_err(of_file(&arguments.rig))?;
+    let options = Options { by_direction: arguments.by_direction, ..usual };
     let columns = Columns::of(rig, recording);
-    let fitted = regress(&columns.samples(), &options)?;
+    let fitted = regress(&columns.samples(), &options).map_err(of_file(&arguments.record))?;
     let values: Vec<f64> = fitted.coefficients.iter().map(|c| c.value).collect();
-    let held = holdout
-        .map(|other| relative_error(&Columns::of(rig, other).samples(), &options, &values))
-        .transpose()?;
+    let held =
+        holdout.zip(arguments.holdout.as_deref()).map(|(other, path)| {
+            relative_error(&Columns::of(rig, other).samples(), &options, &values)
+                .map_err(of_file::<RegressionError>(path))
+        });
+    let held = held.transpose()?;
     let (model, left) = model(rig, &fitted);
     let mut value = as_json(rig, &fitted, held);
     value["seconds"] = json!(rounded(started.elapsed().as_secs_f64()));
