@@ -1,5 +1,6 @@
 //! `fit` and `simulate`: a rig's model and a record of its drive.
 
+mod page;
 mod regressed;
 mod shown;
 
@@ -22,9 +23,11 @@ use std::{path::Path, time::Instant};
 /// The version of what is written.
 pub(crate) const FORMAT: u32 = 1;
 
-impl From<FitError> for Failure {
-    fn from(error: FitError) -> Self {
-        Self { exit: Exit::Input, error: error.into() }
+/// The failure for what is wrong with the file at `path`.
+fn of_file<E: Into<anyhow::Error>>(path: &Path) -> impl Fn(E) -> Failure {
+    move |error| {
+        let error = error.into().context(safe(&path.display().to_string()));
+        Failure { exit: Exit::Input, error }
     }
 }
 
@@ -67,20 +70,21 @@ pub(crate) fn fit(arguments: &FitArgs) -> Result<Exit, Failure> {
     };
     let data = Data::of(&rig, &recording);
     let threads = arguments.threads.map(usize::from);
-    let fitted = identify::on_threads(threads, || identified(&rig, &data, &options))?;
-    let held = match &holdout {
-        Some(recording) => {
-            let data = Data::of(&rig, recording);
-            let [given, found] =
-                [&rig, &fitted.rig].map(|rig| simulated(rig, &data, arguments.window));
-            Some([given?, found?])
-        }
-        None => None,
-    };
+    let fitted = identify::on_threads(threads, || identified(&rig, &data, &options));
+    let fitted = fitted.map_err(of_file(&arguments.record))?;
+    let held = holdout.zip(arguments.holdout.as_deref()).map(|(recording, path)| {
+        let data = Data::of(&rig, &recording);
+        let [given, found] = [&rig, &fitted.rig]
+            .map(|rig| simulated(rig, &data, arguments.window).map_err(of_file::<FitError>(path)));
+        Ok::<Held, Failure>([given?, found?])
+    });
+    let held = held.transpose()?;
     let mut value = shown::as_json(&rig, &fitted, held.as_ref());
     value["seconds"] = json!(rounded(started.elapsed().as_secs_f64()));
     if let Some(out) = &arguments.out {
         leave(out, &fitted.rig, &value, &fitted.traces)?;
+        let page = page::of_fit(&rig, &data, &fitted, held.as_ref());
+        write_whole(&out.join("fit.html"), page.as_bytes())?;
     }
     if arguments.json {
         output::line(&format!("{value:#}"));
@@ -97,7 +101,8 @@ pub(crate) fn fit(arguments: &FitArgs) -> Result<Exit, Failure> {
 pub(crate) fn simulate(arguments: &SimulateArgs) -> Result<Exit, Failure> {
     let rig = read_rig(&arguments.rig)?;
     let recording = read_channels(&rig, &arguments.record)?;
-    let run = simulated(&rig, &Data::of(&rig, &recording), arguments.window)?;
+    let run = simulated(&rig, &Data::of(&rig, &recording), arguments.window);
+    let run = run.map_err(of_file(&arguments.record))?;
     if let Some(out) = &arguments.out {
         traces(&out.join("simulated.csv"), &run.traces)?;
     }

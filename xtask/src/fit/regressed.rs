@@ -1,6 +1,6 @@
 //! `fit --method regression`: filtered position, central differences, least squares.
 
-use super::{FORMAT, rounded, say_where};
+use super::{FORMAT, of_file, page, rounded, say_where};
 use crate::{
     cli::FitArgs,
     exit::{Exit, Failure},
@@ -11,19 +11,14 @@ use experiment::four_digits;
 use identify::{
     Recording, Rig,
     regression::{
-        Options, Regression, RegressionError, Samples, drive_gain, regress, relative_error,
+        Coefficient, Options, Regression, RegressionError, Samples, drive_gain, regress,
+        relative_error,
     },
     rig::Kind,
 };
 use record::write_whole;
 use serde_json::{Value, json};
 use std::time::Instant;
-
-impl From<RegressionError> for Failure {
-    fn from(error: RegressionError) -> Self {
-        Self { exit: Exit::Input, error: error.into() }
-    }
-}
 
 /// The 97.5 % quantile of the normal distribution.
 const NORMAL: f64 = 1.959_963_984_540_054;
@@ -66,19 +61,25 @@ pub(super) fn regression(
     (recording, holdout): (&Recording, Option<&Recording>),
     started: Instant,
 ) -> Result<Exit, Failure> {
-    let options = Options { by_direction: arguments.by_direction, ..Options::of_rig(rig)? };
+    let usual = Options::of_rig(rig).map_err(of_file(&arguments.rig))?;
+    let options = Options { by_direction: arguments.by_direction, ..usual };
     let columns = Columns::of(rig, recording);
-    let fitted = regress(&columns.samples(), &options)?;
+    let fitted = regress(&columns.samples(), &options).map_err(of_file(&arguments.record))?;
     let values: Vec<f64> = fitted.coefficients.iter().map(|c| c.value).collect();
-    let held = holdout
-        .map(|other| relative_error(&Columns::of(rig, other).samples(), &options, &values))
-        .transpose()?;
+    let held =
+        holdout.zip(arguments.holdout.as_deref()).map(|(other, path)| {
+            relative_error(&Columns::of(rig, other).samples(), &options, &values)
+                .map_err(of_file::<RegressionError>(path))
+        });
+    let held = held.transpose()?;
     let (model, left) = model(rig, &fitted);
     let mut value = as_json(rig, &fitted, held);
     value["seconds"] = json!(rounded(started.elapsed().as_secs_f64()));
     if let Some(out) = &arguments.out {
         write_whole(&out.join("model.toml"), model.write().as_bytes())?;
         write_whole(&out.join("fit.json"), format!("{value:#}\n").as_bytes())?;
+        let page = page::of_regression(&rig.title, summary(&fitted, held), rows(rig, &fitted));
+        write_whole(&out.join("fit.html"), page.as_bytes())?;
     }
     if arguments.json {
         output::line(&format!("{value:#}"));
@@ -113,8 +114,7 @@ fn as_json(rig: &Rig, fitted: &Regression, held: Option<f64>) -> Value {
     let p = fitted.coefficients.len();
     let parameters = fitted.coefficients.iter().map(|c| {
         let (given, error) = (rig.value(c.term.name), c.standard_error);
-        let interval = [-1.0, 1.0].map(|s| c.value + s * NORMAL * error);
-        let moved = given.is_some_and(|g| (c.value - g).abs() > (2.0 * error).max(0.01 * g.abs()));
+        let (interval, moved) = (bounds(c), moved(given, c));
         json!({ "name": c.term.name, "given": given, "found": c.value, "standard_error": error,
                 "classical_error": c.classical_error, "unit": c.term.unit, "moved": moved,
                 "identified": true, "interval": interval })
@@ -149,7 +149,7 @@ fn lines(rig: &Rig, fitted: &Regression, held: Option<f64>) -> Vec<String> {
     for c in &fitted.coefficients {
         let given = rig.value(c.term.name).map_or("–".to_owned(), four_digits);
         let [found, error] = [c.value, c.standard_error].map(four_digits);
-        let [low, high] = [-1.0, 1.0].map(|s| four_digits(c.value + s * NORMAL * c.standard_error));
+        let [low, high] = bounds(c).map(four_digits);
         let interval = format!("{low} … {high}");
         lines.push(format!(
             "{:14} {given:>11} {found:>11} {error:>10}  {interval:26} {}",
@@ -157,12 +157,43 @@ fn lines(rig: &Rig, fitted: &Regression, held: Option<f64>) -> Vec<String> {
         ));
     }
     lines.push(String::new());
-    lines.push(format!(
+    lines.push(summary(fitted, held));
+    lines
+}
+
+/// What the regression leaves of the force, in a sentence.
+fn summary(fitted: &Regression, held: Option<f64>) -> String {
+    format!(
         "relative force error {} %{}; condition number {}; errors allow for residuals alike over {} rows",
         four_digits(fitted.relative_error),
         held.map_or(String::new(), |e| format!(", on the held-out record {} %", four_digits(e))),
         four_digits(fitted.condition),
         fitted.lag
-    ));
-    lines
+    )
+}
+
+/// The rows of the page's table.
+fn rows(rig: &Rig, fitted: &Regression) -> Vec<Vec<String>> {
+    let row = |c: &Coefficient| {
+        let given = rig.value(c.term.name);
+        let [low, high] = bounds(c).map(four_digits);
+        vec![
+            format!("{} [{}]", c.term.name, c.term.unit),
+            given.map_or("–".to_owned(), four_digits),
+            format!("{} ± {}", four_digits(c.value), four_digits(c.standard_error)),
+            format!("{low} … {high}"),
+            if moved(given, c) { "yes" } else { "no" }.to_owned(),
+        ]
+    };
+    fitted.coefficients.iter().map(row).collect()
+}
+
+/// The 95 % interval of a coefficient.
+fn bounds(c: &Coefficient) -> [f64; 2] {
+    [-1.0, 1.0].map(|s| c.value + s * NORMAL * c.standard_error)
+}
+
+/// Whether a coefficient lies further from the value given than two standard errors and one per cent.
+fn moved(given: Option<f64>, c: &Coefficient) -> bool {
+    given.is_some_and(|g| (c.value - g).abs() > (2.0 * c.standard_error).max(0.01 * g.abs()))
 }

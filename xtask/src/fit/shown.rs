@@ -38,7 +38,8 @@ pub(super) fn way(way: Way, windows: usize) -> String {
     }
 }
 
-fn ended(end: End) -> &'static str {
+/// How the search ended, in words.
+pub(super) fn ended(end: End) -> &'static str {
     match end {
         End::Converged => "converged",
         End::Stalled => "stopped short of a minimum",
@@ -80,7 +81,7 @@ pub(super) fn as_json(rig: &Rig, fit: &Fit, held: Option<&Held>) -> Value {
 }
 
 /// The misfit of a record not fitted, before and after.
-fn paired(before: &Simulated, after: &Simulated) -> Vec<Misfit> {
+pub(super) fn paired(before: &Simulated, after: &Simulated) -> Vec<Misfit> {
     let pairs = before.gap.iter().zip(&after.gap);
     pairs.map(|(before, after)| Misfit { before: before.before, ..after.clone() }).collect()
 }
@@ -133,12 +134,31 @@ pub(super) fn lines(rig: &Rig, fit: &Fit, held: Option<&Held>) -> Vec<String> {
     lines
 }
 
+/// A value with as many digits as its error makes sense of: to two digits of the error.
+pub(super) fn sure(value: f64, error: f64) -> String {
+    let ratio = value.abs() / error;
+    if !(error > 0.0 && error.is_finite() && ratio.is_finite() && ratio > 100.0) {
+        return four_digits(value);
+    }
+    let digits = (exponent(ratio) + 1).clamp(0, 15);
+    let short = (1e-3..1e6).contains(&value.abs());
+    let [digits, decimals] =
+        [digits, digits - exponent(value)].map(|n| usize::try_from(n).unwrap_or(0));
+    if short { format!("{value:.decimals$}") } else { format!("{value:.digits$e}") }
+}
+
+/// The decimal exponent of a number.
+fn exponent(value: f64) -> i32 {
+    format!("{value:e}").split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0)
+}
+
 fn row(rig: &Rig, p: &Estimate) -> String {
-    let side = |x: Option<f64>, none: &str| x.map_or(none.to_owned(), four_digits);
+    let side =
+        |x: Option<f64>, none: &str| x.map_or(none.to_owned(), |x| sure(x, p.standard_error));
     let interval =
         format!("{} … {}", side(p.interval[0], "no bound"), side(p.interval[1], "no bound"));
-    let numbers = [p.given, p.found, p.standard_error].map(four_digits);
-    let [given, found, error] = numbers;
+    let [given, error] = [p.given, p.standard_error].map(four_digits);
+    let found = sure(p.found, p.standard_error);
     format!(
         "{:14} {given:>11} {found:>11} {error:>10}  {interval:26} {}",
         p.name,
@@ -147,7 +167,7 @@ fn row(rig: &Rig, p: &Estimate) -> String {
 }
 
 /// What the record cannot tell of a parameter.
-fn untold(rig: &Rig, p: &Estimate) -> Option<String> {
+pub(super) fn untold(rig: &Rig, p: &Estimate) -> Option<String> {
     if p.identified {
         return None;
     }
@@ -162,7 +182,7 @@ fn untold(rig: &Rig, p: &Estimate) -> Option<String> {
 }
 
 /// The pairs of parameters that this record hardly tells apart.
-fn correlated(fit: &Fit) -> Vec<String> {
+pub(super) fn correlated(fit: &Fit) -> Vec<String> {
     let mut all = Vec::new();
     for (i, a) in fit.parameters.iter().enumerate() {
         for (j, b) in fit.parameters.iter().enumerate().skip(i + 1) {

@@ -66,6 +66,15 @@ pub enum FitError {
         /// How many are needed.
         expected: usize,
     },
+    /// A channel that the model is to follow does not change.
+    #[error(
+        "channel {channel} is the same from the first sample to the last: expected a record in which it moves; \
+         see whether its sensor was connected, or leave it out of the rig file if it may be missing"
+    )]
+    Still {
+        /// The channel.
+        channel: String,
+    },
     /// Nothing is free.
     #[error("no parameter is free: name some under [fit] free, as free = [\"f_c\"]")]
     NothingFree,
@@ -102,7 +111,8 @@ pub struct Estimate {
     pub standard_error: f64,
     /// Whether it lies further from its nominal value than two standard errors and one per cent.
     pub moved: bool,
-    /// Whether the record identifies it: the 95 % interval is closed on both sides, or was not asked for.
+    /// Whether the record identifies it: the 95 % interval is closed on both sides, or was not asked for and
+    /// the standard error is finite.
     pub identified: bool,
     /// The 95 % interval by profile likelihood; a side that is not there was not found.
     pub interval: [Option<f64>; 2],
@@ -214,6 +224,13 @@ fn problem<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
 fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     if data.time.len() < 8 {
         return Err(FitError::TooShort { found: data.time.len(), expected: 8 });
+    }
+    // Without any noise or motion in a channel there is nothing to weigh its residuals by.
+    let loads = data.loads.iter().flatten();
+    let seen = [&data.displacement, &data.velocity, &data.force];
+    let mut seen = seen.into_iter().flatten().chain(loads);
+    if let Some(still) = seen.find(|seen| seen.span <= 0.0) {
+        return Err(FitError::Still { channel: still.name.clone() });
     }
     let noise = |seen: Option<&Seen>| seen.map_or(1.0, |s| s.noise.max(f64::MIN_POSITIVE));
     let weights = Weights {
@@ -360,7 +377,8 @@ fn estimates(
             found: value,
             standard_error,
             moved: (value - free.given).abs() > (2.0 * standard_error).max(0.01 * free.given.abs()),
-            identified: !asked || interval.iter().all(Option::is_some),
+            identified: standard_error.is_finite()
+                && (!asked || interval.iter().all(Option::is_some)),
             interval,
             asymptotic: [-1.0, 1.0].map(|s| value + s * interval::NORMAL * standard_error),
             bootstrap: drawn[i],

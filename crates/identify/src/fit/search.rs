@@ -137,8 +137,11 @@ pub fn search(
     };
     search.simulate();
     let rounds = patience.simulations.div_ceil(search.moving.len() + 1);
+    let share = patience.misfit / search.misfit();
+    // The library panics on a tolerance that is no number.
+    let share = if share.is_finite() { share.clamp(1e-12, 1e-3) } else { 1e-3 };
     let method = LevenbergMarquardt::new()
-        .with_ftol((patience.misfit / search.misfit()).clamp(1e-12, 1e-3))
+        .with_ftol(share)
         .with_xtol(1e-9)
         .with_gtol(0.0)
         .with_stepbound(1.0)
