@@ -1,6 +1,6 @@
 //! A record as the fit needs it: what drives the plant, what was seen, and how noisy that is.
 
-use crate::{Hold, Rig};
+use crate::{Hold, Recording, Rig, rig::Kind};
 
 /// What was seen of one quantity, and its noise.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +66,38 @@ pub struct Data {
 }
 
 impl Data {
+    /// The channels of `recording` as the plant of `rig` needs them. A record holds what its rig file names,
+    /// so that a channel is missing only where it may be.
+    pub fn of(rig: &Rig, recording: &Recording) -> Self {
+        let values = |name: &str| recording.channels.get(name).cloned();
+        let seen = |name: &str| {
+            let quantum = recording.quantum.get(name).copied().unwrap_or(0.0);
+            values(name).map(|values| Seen::new(name, values, quantum))
+        };
+        let imposed = rig.kind == "prescribed";
+        let displacement =
+            if Kind::of(rig.kind).is_some_and(Kind::turns) { "angle" } else { "position" };
+        let input = ["current", "force", "voltage", "displacement"].into_iter().find(|name| {
+            recording.channels.contains_key(*name) && (imposed == (*name == "displacement"))
+        });
+        let hold = input.and_then(|name| rig.channels.get(name)).map_or(Hold::Linear, |c| c.hold);
+        let loads = match (seen("force_1"), seen("force_2")) {
+            (Some(first), Some(second)) => Some([first, second]),
+            _ => None,
+        };
+        Self {
+            time: recording.time.clone(),
+            input: input.and_then(values).unwrap_or_default(),
+            hold: rig.controller.as_ref().map_or(hold, |c| c.hold),
+            displacement: if imposed { None } else { seen(displacement) },
+            velocity: if imposed { None } else { seen("velocity") },
+            force: if imposed { seen("force") } else { None },
+            loads,
+            reference: values("reference").unwrap_or_default(),
+            added: values("added_input").unwrap_or_default(),
+        }
+    }
+
     /// The largest speed [m/s], as measured or from the displacement over a few samples.
     pub fn speed(&self) -> f64 {
         let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
