@@ -155,6 +155,15 @@ pub struct Fit {
 /// The steps' tolerance of a fit, of the spans of the channels.
 const TOLERANCE: f64 = 1e-5;
 
+/// A step may be wrong by this share of the noise.
+const BELOW_NOISE: f64 = 0.1;
+
+/// The change of a parameter by shorter steps that is not worth taking them [standard errors].
+const STEPS_MATTER: f64 = 0.1;
+
+/// So many times the steps may be made ten times as accurate.
+const FINER: usize = 3;
+
 /// A single run must not be worse than windows by more than this to be preferred, for it says more [1].
 const AS_GOOD: f64 = 1.2;
 
@@ -163,10 +172,7 @@ pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
     let problem = problem(rig, data)?;
     let (problem, found, way) = best_way(problem, options)?;
     let before = start_misfit(&problem);
-    let minimum = newton::settle(&problem, found, None);
-    let found = minimum;
-    let local = newton::look(&problem, &found.x, &found.pieces);
-    let spread = interval::spread(&problem, &found, &local);
+    let Minimum { problem, found, local, spread, step_error } = settled(problem, found);
     let profiles = if options.profiles {
         interval::profiles(&problem, &found, &spread)
     } else {
@@ -185,10 +191,39 @@ pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
         simulations: found.simulations,
         variance: spread.variance,
         neighbours: spread.neighbours,
-        step_error: step_error(&problem, &found, &spread),
+        step_error,
         models,
         rig: fitted,
     })
+}
+
+/// Where a fit ended, with steps short enough for it.
+struct Minimum<'a> {
+    problem: Problem<'a>,
+    found: Found,
+    local: newton::Local,
+    spread: Spread,
+    step_error: f64,
+}
+
+/// The minimum near where a search ended; the steps get shorter until they do not matter to it.
+fn settled<'a>(mut problem: Problem<'a>, found: Found) -> Minimum<'a> {
+    let mut found = newton::settle(&problem, found, None);
+    for round in 0.. {
+        let local = newton::look(&problem, &found.x, &found.pieces);
+        let spread = interval::spread(&problem, &found, &local);
+        let step_error = step_error(&problem, &found, &spread);
+        if step_error < STEPS_MATTER || round == FINER {
+            return Minimum { problem, found, local, spread, step_error };
+        }
+        problem.tolerance *= 0.1;
+        let spent = found.simulations;
+        found = newton::settle(&problem, search::search(&problem, &found.x, None, &TO_THE_END), None);
+        for (total, before) in found.simulations.iter_mut().zip(spent) {
+            *total += before;
+        }
+    }
+    unreachable!()
 }
 
 /// The problem with all samples in one run, its weights the channels' noises.
@@ -211,7 +246,15 @@ fn problem<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     };
     let closed_loop = rig.controller.is_some() && !data.reference.is_empty();
     let windows = blocks::whole(data);
-    Ok(Problem { rig, data, free, windows, closed_loop, weights, tolerance: TOLERANCE })
+    let tolerance = tolerance(data);
+    Ok(Problem { rig, data, free, windows, closed_loop, weights, tolerance })
+}
+
+/// The steps' tolerance [1]: below the noise, so that the misfit is smooth on its scale.
+fn tolerance(data: &Data) -> f64 {
+    let seen = [&data.displacement, &data.velocity].into_iter().flatten();
+    let least = seen.map(|seen| seen.noise / seen.span.max(f64::MIN_POSITIVE)).fold(1.0, f64::min);
+    (BELOW_NOISE * least).clamp(1e-4 * TOLERANCE, TOLERANCE)
 }
 
 /// The way in which the record is simulated, and the minimum found so.
