@@ -116,16 +116,45 @@ pub(super) type Interval = [Option<f64>; 2];
 const TRIES: usize = 6;
 const FURTHEST: f64 = 9.0;
 
-/// The profile intervals of all variables around the minimum.
-pub(super) fn profiles(problem: &Problem<'_>, found: &Found, spread: &Spread) -> Vec<Interval> {
-    (0..found.x.len())
+/// A misfit so much lower [residual variances] is another minimum.
+const LOWER: f64 = 0.5;
+
+/// The profile intervals of all variables around the minimum, and a lower minimum if a profile came upon one: then
+/// the intervals are worth nothing.
+pub(super) fn profiles(
+    problem: &Problem<'_>,
+    found: &Found,
+    spread: &Spread,
+) -> (Vec<Interval>, Option<Found>) {
+    let sides: Vec<[Side; 2]> = (0..found.x.len())
         .into_par_iter()
         .map(|i| {
             let limit = CHI_SQUARED * spread.variance * spread.inflation[i].powi(2);
-            let side = |sign: f64| bound(problem, found, spread, (i, sign, limit));
-            [side(-1.0), side(1.0)]
+            [-1.0, 1.0].map(|sign| bound(problem, found, spread, (i, sign, limit)))
         })
-        .collect()
+        .collect();
+    let intervals = sides.iter().map(|sides| {
+        [0, 1].map(|side| match &sides[side] {
+            Side::At(x) => Some(*x),
+            Side::Nowhere | Side::Lower(_) => None,
+        })
+    });
+    let intervals = intervals.collect();
+    let lower = sides.into_iter().flatten().filter_map(|side| match side {
+        Side::Lower(found) => Some(*found),
+        Side::At(_) | Side::Nowhere => None,
+    });
+    (intervals, lower.min_by(|a, b| a.misfit.total_cmp(&b.misfit)))
+}
+
+/// What was found in one direction.
+enum Side {
+    /// A bound, in the fit's variable.
+    At(f64),
+    /// No bound.
+    Nowhere,
+    /// A lower misfit.
+    Lower(Box<Found>),
 }
 
 /// How far variable `i` goes in the direction `sign` before the misfit has grown by `limit`.
@@ -134,7 +163,7 @@ fn bound(
     found: &Found,
     spread: &Spread,
     (i, sign, limit): (usize, f64, f64),
-) -> Option<f64> {
+) -> Side {
     let c = &spread.covariance;
     let error = c[(i, i)].sqrt() * spread.inflation[i];
     let mut x = found.x.clone();
@@ -150,9 +179,12 @@ fn bound(
         there[i] = found.x[i] + sign * away;
         let patience = Patience { misfit: 0.05 * limit, simulations: 6 };
         let near = search(problem, &there, Some(i), &patience);
+        if near.misfit < found.misfit - LOWER * spread.variance {
+            return Side::Lower(Box::new(near));
+        }
         let root = ((near.misfit - found.misfit) / limit).max(0.0).sqrt();
         if (root - 1.0).abs() < 0.05 {
-            return Some(found.x[i] + sign * away / root);
+            return Side::At(found.x[i] + sign * away / root);
         }
         if root < 1.0 {
             (inside, inside_root) = (away, root);
@@ -166,9 +198,9 @@ fn bound(
                 let share = (1.0 - inside_root) / (far_root - inside_root);
                 inside + (far - inside) * share.clamp(0.05, 0.95)
             }
-            None if inside >= FURTHEST => return None,
+            None if inside >= FURTHEST => return Side::Nowhere,
             None => (away / root.max(0.3)).min(3.0 * away).min(FURTHEST),
         };
     }
-    outside.map(|_| found.x[i] + sign * away)
+    outside.map_or(Side::Nowhere, |_| Side::At(found.x[i] + sign * away))
 }

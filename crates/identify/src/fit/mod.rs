@@ -158,6 +158,15 @@ pub struct Fit {
 /// The steps' tolerance of a fit, of the spans of the channels.
 const TOLERANCE: f64 = 1e-5;
 
+/// A step may be wrong by this share of the noise.
+const BELOW_NOISE: f64 = 0.1;
+
+/// The change of a parameter by shorter steps that is not worth taking them [standard errors].
+const STEPS_MATTER: f64 = 0.1;
+
+/// So many times the steps may be made ten times as accurate.
+const FINER: usize = 3;
+
 /// A single run must explain the record down to its noise, or windows are preferred: what it leaves, as the noise
 /// of the measured input does, adds up from sample to sample, and is not what the intervals are made for [1].
 const AS_GOOD: f64 = 2.0;
@@ -173,15 +182,8 @@ pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
     let problem = problem(rig, data)?;
     let (problem, found, way) = best_way(problem, options)?;
     let before = start_misfit(&problem);
-    let minimum = newton::settle(&problem, found, None);
-    let found = minimum;
-    let local = newton::look(&problem, &found.x, &found.pieces);
-    let spread = interval::spread(&problem, &found, &local);
-    let profiles = if options.profiles {
-        interval::profiles(&problem, &found, &spread)
-    } else {
-        vec![[None, None]; found.x.len()]
-    };
+    let (minimum, profiles) = profiled(settled(problem, found), options);
+    let Minimum { problem, found, local, spread, step_error } = minimum;
     let drawn = bootstrap::draw(&problem, &found, &local, options);
     let fitted = fitted(&problem, &found);
     let models = if options.models {
@@ -200,10 +202,64 @@ pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
         variance: spread.variance,
         neighbours: spread.neighbours,
         traces: traces(&problem, [&before, &found]),
-        step_error: step_error(&problem, &found, &spread),
+        step_error,
         models,
         rig: fitted,
     })
+}
+
+/// Where a fit ended, with steps short enough for it.
+struct Minimum<'a> {
+    problem: Problem<'a>,
+    found: Found,
+    local: newton::Local,
+    spread: Spread,
+    step_error: f64,
+}
+
+/// The minimum near where a search ended; the steps get shorter until they do not matter to it.
+fn settled<'a>(mut problem: Problem<'a>, found: Found) -> Minimum<'a> {
+    let mut found = newton::settle(&problem, found, None);
+    let mut round = 0;
+    loop {
+        let local = newton::look(&problem, &found.x, &found.pieces);
+        let spread = interval::spread(&problem, &found, &local);
+        let step_error = step_error(&problem, &found, &spread);
+        if step_error < STEPS_MATTER || round == FINER {
+            return Minimum { problem, found, local, spread, step_error };
+        }
+        round += 1;
+        problem.tolerance *= 0.1;
+        let spent = found.simulations;
+        found =
+            newton::settle(&problem, search::search(&problem, &found.x, None, &TO_THE_END), None);
+        for (total, before) in found.simulations.iter_mut().zip(spent) {
+            *total += before;
+        }
+    }
+}
+
+/// So many times a profile may come upon a lower minimum.
+const LOWER: usize = 3;
+
+/// The intervals at the minimum, from which the fit goes on where one of them comes upon a lower one.
+fn profiled<'a>(minimum: Minimum<'a>, options: &Options) -> (Minimum<'a>, Vec<Interval>) {
+    let none = vec![[None, None]; minimum.found.x.len()];
+    if !options.profiles {
+        return (minimum, none);
+    }
+    let mut minimum = minimum;
+    for round in 0.. {
+        let (profiles, lower) =
+            interval::profiles(&minimum.problem, &minimum.found, &minimum.spread);
+        let Some(lower) = lower.filter(|_| round < LOWER) else { return (minimum, profiles) };
+        let mut next = search::search(&minimum.problem, &lower.x, None, &TO_THE_END);
+        for (total, before) in next.simulations.iter_mut().zip(minimum.found.simulations) {
+            *total += before;
+        }
+        minimum = settled(minimum.problem, next);
+    }
+    (minimum, none)
 }
 
 /// The problem with all samples in one run, its weights the channels' noises.
@@ -253,8 +309,15 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
         memory,
         counts,
         weights,
-        tolerance: TOLERANCE,
+        tolerance: tolerance(data),
     })
+}
+
+/// The steps' tolerance [1]: below the noise, so that the misfit is smooth on its scale.
+fn tolerance(data: &Data) -> f64 {
+    let seen = [&data.displacement, &data.velocity].into_iter().flatten();
+    let least = seen.map(|seen| seen.noise / seen.span.max(f64::MIN_POSITIVE)).fold(1.0, f64::min);
+    (BELOW_NOISE * least).clamp(1e-4 * TOLERANCE, TOLERANCE)
 }
 
 /// The way in which the record is simulated, and the minimum found so.

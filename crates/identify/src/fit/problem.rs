@@ -83,9 +83,6 @@ pub(super) struct Slopes {
 /// How well the time of a sample is known, in sampling times.
 const TIMING: f64 = 0.1;
 
-/// What a step may be wrong by, of the noise.
-const QUIET: f64 = 0.002;
-
 /// The residual of a sample without a motion, in standard deviations: far worse than any motion's.
 const NO_MOTION: f64 = 1e4;
 
@@ -237,22 +234,12 @@ impl Problem<'_> {
         self.weights.velocity.hypot(TIMING * 0.5 * (values[after] - values[before]))
     }
 
-    /// What a step may be wrong by: little of the noise, for steps add up, and of the spans neither more than
-    /// [`Self::tolerance`] nor a hundredth of it.
+    /// What a step may be wrong by.
     fn tolerance(&self) -> Tolerance {
         let q = self.data.displacement.as_ref().map_or(1.0, |d| d.span.max(d.noise));
         let v = self.data.speed().max(1e-12);
         let steps = 8 * self.data.time.len() + 10_000;
-        // Coulomb friction stops and starts at once, and every such instant is found to this.
-        let quiet = if self.rig.friction.name == "coulomb" { 0.1 * QUIET } else { QUIET };
-        let of = |span: f64, noise: f64| {
-            let most = self.tolerance * span;
-            (quiet * noise).clamp(0.01 * most, most)
-        };
-        let noise =
-            if self.data.velocity.is_some() { self.weights.velocity } else { f64::INFINITY };
-        let [q, v] = [of(q, self.weights.displacement), of(v, noise)];
-        Tolerance { q, v, z: self.tolerance, steps }
+        Tolerance { q: self.tolerance * q, v: self.tolerance * v, z: self.tolerance, steps }
     }
 
     /// The derivatives of a window's residuals by the variables `x`, and by its start.

@@ -23,7 +23,7 @@ pub struct Window {
 pub const START: usize = 3;
 
 /// The standard deviation of the last of them: a contact that still rings is not where it holds the force.
-const UNKNOWN: f64 = 0.3;
+const UNKNOWN: f64 = 0.1;
 
 /// How many samples tell the state at a window's start.
 const LOOK: usize = 9;

@@ -69,7 +69,6 @@ impl<'a, const P: usize> Again<'a, P> {
         ends: [DualSVec64<P>; 2],
     ) {
         let (h, gh) = (step.h, GAMMA * step.h);
-        self.turn(state, step, ends);
         let zero = DualSVec64::<P>::from(0.0);
         let (mut q_dot, mut v_dot) = ([zero; 3], [zero; 3]);
         for s in 0..3 {
@@ -83,43 +82,28 @@ impl<'a, const P: usize> Again<'a, P> {
                 }
             }
             let u = ends[0] + (ends[1] - ends[0]) * (step.from + C[s] * h / dt);
-            let v = self.velocity(Share { dt: gh, u }, step.v[s], step.held[s]);
+            let v = self.velocity(Share { dt: gh, u }, [step.v[s], step.way[s]]);
             (q_dot[s], v_dot[s]) = (v, (v - self.base.v) / gh);
             for (i, z) in self.z.iter().enumerate() {
                 self.z_dot[s][i] = (*z - self.base.z[i]) / gh;
             }
         }
         state.q = self.base.q + q_dot[2] * gh;
-        state.v = q_dot[2];
+        // Where the motion turns the velocity is zero, but the time of it moves with the parameters, and with it
+        // the velocity after it.
+        state.v = if step.turn == 1.0 { q_dot[2] } else { (q_dot[2] - q_dot[2].re()) * step.turn };
         state.z.copy_from_slice(&self.z);
     }
 
-    /// Where the plant turns back under Coulomb friction its acceleration jumps from a₋ to a₊, and the instant
-    /// follows the parameters: ∂v₊/∂p = (a₊/a₋) ∂v₋/∂p. The steps that are gone over do not show this, as they
-    /// stay where they were.
-    fn turn(&self, state: &mut Start<DualSVec64<P>>, step: &Step, ends: [DualSVec64<P>; 2]) {
-        let Some(f_c) = self.model.contact.dry() else { return };
-        let before = state.v.re();
-        if before == 0.0 || step.v[2] * before >= 0.0 {
-            return;
-        }
-        let u = ends[0] + (ends[1] - ends[0]) * step.from;
-        let drive = self.model.drive(u, state.q, state.v).re();
-        let friction = f_c.re() * before.signum();
-        let ratio = (drive + friction) / (drive - friction);
-        let by = state.v.eps.unwrap_generic(nalgebra::Const::<P>, nalgebra::U1) * ratio;
-        state.v = DualSVec64::new(before, Derivative::some(by));
-    }
-
     /// The velocity of a stage with its derivatives; leaves the stage's states in `self.z`.
-    fn velocity(&mut self, share: Share<DualSVec64<P>>, v: f64, held: bool) -> DualSVec64<P> {
-        if held {
+    fn velocity(&mut self, share: Share<DualSVec64<P>>, [v, way]: [f64; 2]) -> DualSVec64<P> {
+        if let (Some(_), 0.0) = (self.model.contact.dry(), way) {
             return DualSVec64::from(0.0);
         }
         let alone = DualSVec64::<P>::from_re(v).derivative(P - 1);
         let mut balance = excess(self.model, &self.base, share, alone, &mut self.z);
         if let Some(f_c) = self.model.contact.dry() {
-            balance += f_c * (share.dt * v.signum());
+            balance += f_c * (share.dt * way);
         }
         let slope = -part(&balance, P - 1).recip();
         let mut by = balance.eps.unwrap_generic(nalgebra::Const::<P>, nalgebra::U1) * slope;

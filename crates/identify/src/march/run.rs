@@ -2,7 +2,7 @@
 
 use super::{
     Drive, Model,
-    stage::{Base, Share, velocity},
+    stage::{Base, Seek, Share, velocity},
     tableau::{A, C, ERROR, GAMMA},
 };
 use crate::Hold;
@@ -60,8 +60,11 @@ pub(super) struct Step {
     pub(super) h: f64,
     /// The velocity of each stage [m/s].
     pub(super) v: [f64; 3],
-    /// Whether Coulomb friction held the stage.
-    pub(super) held: [bool; 3],
+    /// The direction in which each stage slides, 0 where Coulomb friction held it.
+    pub(super) way: [f64; 3],
+    /// By what the derivatives of the velocity are multiplied at the end of the step: 1, but where Coulomb
+    /// friction turns or stops the motion there.
+    pub(super) turn: f64,
 }
 
 /// The steps of a motion, to go over once more.
@@ -96,6 +99,9 @@ pub struct Motion {
     /// The steps.
     pub tape: Tape,
 }
+
+/// The last Newton step for a stage's velocity, of what the velocity may be wrong by.
+const NEAR: f64 = 1e-5;
 
 /// The shortest step, as a share of a sample interval; there the error is no longer asked for.
 const SHORTEST: f64 = 1e-6;
@@ -196,14 +202,16 @@ impl<'a> Walker<'a> {
                 h => h,
             };
             loop {
-                let attempt = self.attempt([from, h, dt], ends);
+                let attempt = self.attempt([from, h, dt], ends, None);
+                let attempt = self.turned(attempt, [from, h, dt], ends);
                 let enough = attempt.as_ref().is_some_and(|a| a.error <= 1.0);
                 let shortest = h <= SHORTEST * dt;
                 let taken = attempt.as_ref().is_some_and(|a| a.error.is_finite()) && shortest;
                 let grows = attempt.as_ref().map_or(0.2, |a| growth(a.error));
                 match attempt {
                     Some(attempt) if enough || taken => {
-                        self.take(&attempt, tape);
+                        from = if attempt.step.h == left { dt } else { from + attempt.step.h };
+                        self.take(attempt, tape);
                         self.h = h * grows;
                         break;
                     }
@@ -214,21 +222,26 @@ impl<'a> Walker<'a> {
             if tape.steps.len() > self.tolerance.steps {
                 return Err(MotionError::TooManySteps { steps: tape.steps.len(), time: t + from });
             }
-            from = if h >= left { dt } else { from + h };
         }
         Ok(())
     }
 
-    fn take(&mut self, attempt: &Attempt, tape: &mut Tape) {
+    fn take(&mut self, attempt: Attempt, tape: &mut Tape) {
         (self.q, self.v) = (attempt.q, attempt.v);
         self.z.copy_from_slice(&self.z_stage);
         tape.steps.push(attempt.step);
     }
 
     /// One step of length `h` from `from` in an interval of length `dt`; none if a stage has no velocity.
-    fn attempt(&mut self, [from, h, dt]: [f64; 3], ends: [f64; 2]) -> Option<Attempt> {
+    /// Coulomb friction slides the given `way`, or as it will.
+    fn attempt(
+        &mut self,
+        [from, h, dt]: [f64; 3],
+        ends: [f64; 2],
+        way: Option<f64>,
+    ) -> Option<Attempt> {
         let gh = GAMMA * h;
-        let mut step = Step { from: from / dt, h, v: [0.0; 3], held: [false; 3] };
+        let mut step = Step { from: from / dt, h, v: [0.0; 3], way: [0.0; 3], turn: 1.0 };
         let (mut v_dot, mut v, mut q) = ([0.0; 3], self.v, self.q);
         for s in 0..3 {
             let mut base = [self.q, self.v];
@@ -246,15 +259,57 @@ impl<'a> Walker<'a> {
             (self.base.q, self.base.v) = (Dual64::from(base[0]), Dual64::from(base[1]));
             let u = ends[0] + (ends[1] - ends[0]) * ((from + C[s] * h) / dt);
             let share = Share { dt: gh, u: Dual64::from(u) };
-            let (root, held) = velocity(&self.probe, &self.base, share, v, &mut self.z_probe)?;
+            let seek = Seek { guess: v, close: NEAR * self.tolerance.v, way };
+            let (root, way) = velocity(&self.probe, &self.base, share, seek, &mut self.z_probe)?;
             v = root;
-            (step.v[s], step.held[s]) = (v, held);
+            (step.v[s], step.way[s]) = (v, way);
             v_dot[s] = (v - base[1]) / gh;
             q = base[0] + gh * v;
             self.states_of_stage(s, gh, v);
         }
-        let error = self.error(h, [step.v, v_dot]).max(self.unseen(&step));
+        let error = self.error(h, [step.v, v_dot]);
         (q.is_finite() && v.is_finite()).then_some(Attempt { step, q, v, error })
+    }
+
+    /// The attempt itself, or, where Coulomb friction turns or stops the motion in it, the step up to there.
+    ///
+    /// The stages alone would not see a turn before the first of them, nor would derivatives over fixed steps
+    /// see that its time moves.
+    fn turned(
+        &mut self,
+        attempt: Option<Attempt>,
+        [from, h, dt]: [f64; 3],
+        ends: [f64; 2],
+    ) -> Option<Attempt> {
+        let f_c = self.model.contact.dry();
+        let (Some(found), Some(f_c)) = (&attempt, f_c) else { return attempt };
+        let way = if self.v == 0.0 { found.step.way[0] } else { self.v.signum() };
+        if way == 0.0 || found.step.way.iter().all(|w| *w == way) {
+            return attempt;
+        }
+        let (mut short, mut long) = (0.0, h);
+        let mut h = h;
+        for _ in 0..60 {
+            let mut there = self.attempt([from, h, dt], ends, Some(way))?;
+            let slope = (there.v - self.v) / h;
+            if there.v.abs() <= NEAR * self.tolerance.v || long - short <= f64::EPSILON * long {
+                let u = ends[0] + (ends[1] - ends[0]) * ((from + h) / dt);
+                let force = self.model.drive(u, there.q, 0.0);
+                let sticks = force.abs() <= f_c;
+                let (before, after) = (force - way * f_c, force + way * f_c);
+                there.step.turn = if sticks || before == 0.0 { 0.0 } else { after / before };
+                there.v = 0.0;
+                return Some(there);
+            }
+            if there.v * way > 0.0 {
+                short = h;
+            } else {
+                long = h;
+            }
+            let next = h - there.v / slope;
+            h = if next > short && next < long { next } else { 0.5 * (short + long) };
+        }
+        None
     }
 
     fn states_of_stage(&mut self, s: usize, gh: f64, v: f64) {
@@ -266,23 +321,6 @@ impl<'a> Walker<'a> {
         for (i, z) in self.z_stage.iter().enumerate() {
             self.z_dot[s][i] = (z - base[i]) / gh;
         }
-    }
-
-    /// What a step with Coulomb friction may be wrong by, of what is allowed, where the plant starts, stops or turns
-    /// back in it: its stages see only the force after that.
-    fn unseen(&self, step: &Step) -> f64 {
-        if self.model.contact.dry().is_none() {
-            return 0.0;
-        }
-        let turned = |v: &f64| v * self.v <= 0.0;
-        let lost = if self.v == 0.0 {
-            step.v[0]
-        } else if step.v.iter().any(turned) {
-            self.v
-        } else {
-            0.0
-        };
-        lost.abs() / self.tolerance.v
     }
 
     /// The estimated error of a step, of what is allowed.

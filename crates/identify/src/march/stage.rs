@@ -37,29 +37,45 @@ pub(super) fn excess<D: Real>(
     model.balance.mass * (v - base.v) - force * share.dt
 }
 
-/// The velocity of a stage [m/s], and whether Coulomb friction holds it; none if there is no finite one.
+/// How the velocity of a stage is looked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seek {
+    /// Where to begin [m/s].
+    pub(super) guess: f64,
+    /// A Newton step so short is the last one [m/s], if none below the last digits comes before.
+    pub(super) close: f64,
+    /// The direction in which Coulomb friction is to slide, whatever the velocity; its own if not given.
+    pub(super) way: Option<f64>,
+}
+
+/// The velocity of a stage [m/s] and the direction in which it slides, 0 where Coulomb friction holds it; none
+/// if there is no finite one.
 pub(super) fn velocity(
     model: &Model<Dual64>,
     base: &Base<Dual64>,
     share: Share<Dual64>,
-    guess: f64,
+    seek: Seek,
     z: &mut [Dual64],
-) -> Option<(f64, bool)> {
+) -> Option<(f64, f64)> {
     let mut at = |v: f64, jump: f64| {
         let g = excess(model, base, share, Dual64::from_re(v).derivative(), z);
         (g.re + jump, g.eps)
     };
     let Some(f_c) = model.contact.dry() else {
-        return root(|v| at(v, 0.0), guess, None).map(|v| (v, false));
+        return root(|v| at(v, 0.0), seek, None).map(|v| (v, v.signum()));
     };
-    let (free, most) = (at(0.0, 0.0).0, share.dt * f_c.re());
+    let most = share.dt * f_c.re();
+    if let Some(way) = seek.way {
+        return root(|v| at(v, way * most), seek, None).map(|v| (v, way));
+    }
+    let free = at(0.0, 0.0).0;
     if free.abs() <= most {
-        return Some((0.0, true));
+        return Some((0.0, 0.0));
     }
     // The excess grows with v, so that it vanishes on the side on which it is negative at zero.
     let side = -free.signum();
-    let guess = if guess * side > 0.0 { guess } else { 0.0 };
-    root(|v| at(v, side * most), guess, Some(side)).map(|v| (v, false))
+    let guess = if seek.guess * side > 0.0 { seek.guess } else { 0.0 };
+    root(|v| at(v, side * most), Seek { guess, ..seek }, Some(side)).map(|v| (v, side))
 }
 
 /// The step of Newton's method after which there is no other, of the velocity.
@@ -69,7 +85,11 @@ const CLOSE: f64 = 1e-10;
 ///
 /// LuGre's excess may fall in the Stribeck zone; then it is the root that Newton's method or the bracket
 /// meets first, and the step's error estimate that judges it.
-fn root(mut f: impl FnMut(f64) -> (f64, f64), guess: f64, side: Option<f64>) -> Option<f64> {
+fn root(
+    mut f: impl FnMut(f64) -> (f64, f64),
+    Seek { guess, close, .. }: Seek,
+    side: Option<f64>,
+) -> Option<f64> {
     let mut low = if side.is_some_and(|s| s > 0.0) { 0.0 } else { f64::NEG_INFINITY };
     let mut high = if side.is_some_and(|s| s < 0.0) { 0.0 } else { f64::INFINITY };
     let mut v = guess;
@@ -83,12 +103,17 @@ fn root(mut f: impl FnMut(f64) -> (f64, f64), guess: f64, side: Option<f64>) -> 
             return Some(v);
         }
         if value > 0.0 {
-            high = v;
+            high = v
         } else {
-            low = v;
+            low = v
         }
         let step = -value / slope;
         let mut next = v + step;
+        // A Newton step of a ten-thousand-millionth leaves an error of its square; and near rest, where the
+        // last digits of the forces are many of the velocity's, there is nothing more to gain.
+        if step.abs() <= (CLOSE * v.abs()).max(close) {
+            return Some(next.clamp(low, high));
+        }
         let inside = next > low && next < high;
         if !inside || (step.abs() > 0.5 * last && high - low < f64::INFINITY) {
             if high - low == f64::INFINITY {
@@ -99,7 +124,6 @@ fn root(mut f: impl FnMut(f64) -> (f64, f64), guess: f64, side: Option<f64>) -> 
                 next = 0.5 * (low + high);
             }
         }
-        // A Newton step of a ten-thousand-millionth leaves an error of its square.
         if (next - v).abs() <= CLOSE * v.abs() || next == v {
             return Some(next);
         }
