@@ -371,25 +371,33 @@ fn weighed<'a>(problem: Problem<'a>, options: &Options) -> Result<(Problem<'a>, 
     Ok(reweighed(problem, found))
 }
 
-/// Where a channel's residuals are larger than its noise the model lacks something there, and the channel
-/// counts for less.
+/// Where a channel's residuals are larger than its noise the model lacks something there, and the channel counts
+/// for less; how much less follows from the minimum, and so again until it no longer changes.
 fn reweighed(problem: Problem<'_>, found: Found) -> (Problem<'_>, Found) {
-    let rms = residuals(&problem, &found);
-    let mut weights = problem.weights;
-    let mut worse = false;
-    for (weight, (_, rms)) in weights_of(&problem, &mut weights).into_iter().zip(&rms) {
-        if *rms > 1.3 * *weight {
-            *weight = *rms;
-            worse = true;
+    let (mut problem, mut found) = (problem, found);
+    let noise = problem.weights;
+    for _ in 0..REWEIGHED {
+        let rms = residuals(&problem, &found);
+        let (mut weights, mut floor, mut old) = (problem.weights, noise, problem.weights);
+        let mut change: f64 = 0.0;
+        let now = weights_of(&problem, &mut weights).into_iter();
+        let least = weights_of(&problem, &mut floor).into_iter();
+        let before = weights_of(&problem, &mut old).into_iter();
+        for (((now, least), before), (_, rms)) in now.zip(least).zip(before).zip(&rms) {
+            *now = if *rms > 1.3 * *least { *rms } else { *least };
+            change = change.max((*now / *before).ln().abs());
         }
+        if change < 0.2 {
+            break;
+        }
+        problem = Problem { weights, ..problem };
+        found = search::search(&problem, &found.x, None, &TO_THE_END);
     }
-    let problem = Problem { weights, ..problem };
-    if !worse {
-        return (problem, found);
-    }
-    let again = search::search(&problem, &found.x, None, &TO_THE_END);
-    (problem, again)
+    (problem, found)
 }
+
+/// So many times the channels are weighed anew.
+const REWEIGHED: usize = 4;
 
 /// The nominal parameters' misfit, in the same windows.
 fn start_misfit(problem: &Problem<'_>) -> Found {
