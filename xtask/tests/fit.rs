@@ -110,7 +110,8 @@ fn leaves_a_model(project: &Project) {
     let said = String::from_utf8_lossy(&compiled.stderr);
     assert!(compiled.status.success(), "{said}");
     let page = fs::read_to_string(at("fit.html")).expect("fit.html");
-    for words in ["f_c [N·m]", "sigma_0 [N·m/rad]", "The loop over the data", "<svg"] {
+    for words in ["f_c [N·m]", "sigma_0 [N·m/rad]", "The loop over the data", "<svg", "Not asked"]
+    {
         assert!(page.contains(words), "no {words:?} in the page");
     }
     assert!(!page.contains("<script") && !page.contains("http"), "the page asks for something");

@@ -52,6 +52,7 @@ fn place(sheet: &Sheet, row: Option<usize>) -> String {
 }
 
 /// Fits what the rig file leaves free, says how sure it is, and writes the model.
+#[expect(clippy::disallowed_methods, reason = "the answer says how many seconds it took")]
 pub(crate) fn fit(arguments: &FitArgs) -> Result<Exit, Failure> {
     let started = Instant::now();
     let rig = read_rig(&arguments.rig)?;

@@ -80,7 +80,7 @@ fn parameters(rig: &Rig, fit: &Fit) -> FitPart {
         title: "Parameters".to_owned(),
         text: vec![format!(
             "Intervals are of 95 %: by profile likelihood where they were asked for, and by a bootstrap over blocks of \
-             the residuals. The residuals have {} of the noise's variance, neighbours correlate with {}.",
+             the residuals. Residuals have {} of the variance that they are weighed by, neighbours correlate with {}.",
             four_digits(fit.variance),
             four_digits(fit.neighbours)
         )],
@@ -115,7 +115,10 @@ fn interval(p: &Estimate) -> String {
 /// What this record leaves open.
 fn cannot_tell(rig: &Rig, fit: &Fit) -> FitPart {
     let list: Vec<String> = fit.parameters.iter().filter_map(|p| untold(rig, p)).collect();
-    let text = if list.is_empty() {
+    let asked = fit.parameters.iter().any(|p| p.interval.iter().any(Option::is_some));
+    let text = if list.is_empty() && !asked {
+        words(&["Not asked: intervals by profile likelihood, which tell it, were left away."])
+    } else if list.is_empty() {
         vec![
             "Nothing of what was asked: each free parameter has an interval closed on both sides."
                 .to_owned(),
@@ -297,4 +300,57 @@ pub(super) fn of_regression(title: &str, opening: String, rows: Vec<Vec<String>>
         ..part()
     };
     report::fit_page(&FitPage { title: safe(title), opening, parts: vec![parameters] })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn estimate(interval: [Option<f64>; 2], identified: bool) -> Estimate {
+        Estimate {
+            name: "f_s".to_owned(),
+            given: 1.0,
+            found: 1.234_567,
+            standard_error: 1e-3,
+            moved: true,
+            identified,
+            interval,
+            asymptotic: [1.232_567, 1.236_567],
+            bootstrap: None,
+            at_bound: false,
+        }
+    }
+
+    #[test]
+    fn an_interval_that_is_open_is_said_in_words() {
+        let said = |interval, identified| super::interval(&estimate(interval, identified));
+        assert_eq!(said([Some(1.232_567), Some(1.236_567)], true), "1.2326 … 1.2366");
+        assert_eq!(said([Some(1.232_567), None], false), "above 1.2326, no upper bound");
+        assert_eq!(said([None, Some(1.236_567)], false), "below 1.2366, no lower bound");
+        assert_eq!(said([None, None], false), "no bound on either side");
+        assert_eq!(said([None, None], true), "1.2326 … 1.2366 (from s.e.)");
+    }
+
+    #[test]
+    fn a_value_has_the_digits_that_its_error_makes_sense_of() {
+        for (value, error, shown) in [
+            (0.580_001_23, 3.8e-6, "0.5800012"),
+            (-0.527_999_9, 1e-6, "-0.5279999"),
+            (95.31, 0.167, "95.31"),
+            (203.45, 5.0, "203.4"),
+            (1.5e-7, 1e-10, "1.5000e-7"),
+            (1.0, 0.0, "1"),
+            (1.0, f64::INFINITY, "1"),
+            (0.0, 1e-6, "0"),
+        ] {
+            assert_eq!(sure(value, error), shown, "{value} ± {error}");
+        }
+    }
+
+    #[test]
+    fn samples_are_found_by_their_time() {
+        let (time, values) = ([0.0, 0.1, 0.2, 0.3], [1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(sampled(&time, &values, &[0.1, 0.3]), [2.0, 4.0]);
+        assert!(sampled(&time, &values, &[0.4])[0].is_nan(), "a sample that is not there");
+    }
 }
