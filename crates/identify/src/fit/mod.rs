@@ -245,7 +245,8 @@ const LOWER: usize = 3;
 /// The intervals at the minimum, from which the fit goes on where one of them comes upon a lower one.
 fn profiled<'a>(minimum: Minimum<'a>, options: &Options) -> (Minimum<'a>, Vec<Interval>) {
     let none = vec![[None, None]; minimum.found.x.len()];
-    if !options.profiles {
+    // Around what is no minimum a profile says nothing.
+    if !options.profiles || minimum.found.end != End::Converged {
         return (minimum, none);
     }
     let mut minimum = minimum;
@@ -448,7 +449,8 @@ fn estimates(
             found: value,
             standard_error,
             moved: (value - free.given).abs() > (2.0 * standard_error).max(0.01 * free.given.abs()),
-            identified: standard_error.is_finite()
+            identified: found.end == End::Converged
+                && standard_error.is_finite()
                 && (!asked || interval.iter().all(Option::is_some)),
             interval,
             asymptotic: [-1.0, 1.0].map(|s| value + s * interval::NORMAL * standard_error),

@@ -42,7 +42,8 @@ pub fn settle(problem: &Problem<'_>, found: Found, fixed: Option<usize>) -> Foun
         }
         let (step, gain) = newton(&information, &local.gradient, &moving);
         if gain < ENOUGH {
-            found.end = if found.end == End::NoMotion { End::NoMotion } else { End::Converged };
+            let whole = found.pieces.iter().all(|p| !p.motion.q.is_empty());
+            found.end = if whole { End::Converged } else { found.end };
             break;
         }
         let Some((x, pieces, misfit)) = shorten(problem, &found.x, &step, &local) else {

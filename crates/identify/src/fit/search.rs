@@ -166,9 +166,9 @@ pub fn search(
 }
 
 fn end(search: &Search<'_, '_>, reason: &TerminationReason) -> End {
-    let moved = search.pieces.iter().any(|p| !p.motion.q.is_empty());
-    if !moved && !search.pieces.is_empty() {
-        return End::NoMotion;
+    let still = search.pieces.iter().filter(|p| p.motion.q.is_empty()).count();
+    if still > 0 {
+        return if still == search.pieces.len() { End::NoMotion } else { End::Stalled };
     }
     if search.moving.is_empty() {
         return End::Converged;
