@@ -21,7 +21,7 @@ pub(super) struct Local {
 }
 
 /// A reduction of the misfit [1] that is not worth another step.
-const ENOUGH: f64 = 1e-3;
+const ENOUGH: f64 = 0.02;
 
 /// The share of a standard error over which the gradient is differenced.
 const SHARE: f64 = 0.1;

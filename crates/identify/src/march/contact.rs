@@ -145,16 +145,14 @@ impl<D: Real> Contact<D> {
 
     /// The states `z` shifted by `share` of their natural size, no element beyond its deadband.
     pub fn shifted(&self, mut z: Vec<D>, share: D) -> Vec<D> {
-        match self {
-            Self::MaxwellSlip { delta, .. } => {
-                for (z, delta) in z.iter_mut().zip(delta) {
-                    *z = within(*z + *delta * share, *delta);
-                }
+        if let Self::MaxwellSlip { delta, .. } = self {
+            for (z, delta) in z.iter_mut().zip(delta) {
+                *z = within(*z + *delta * share, *delta);
             }
-            _ => {
-                let size = self.scale();
-                z.iter_mut().for_each(|z| *z += share * size);
-            }
+            return z;
+        }
+        for z in &mut z {
+            *z += share * self.scale();
         }
         z
     }

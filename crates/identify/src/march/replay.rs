@@ -69,6 +69,7 @@ impl<'a, const P: usize> Again<'a, P> {
         ends: [DualSVec64<P>; 2],
     ) {
         let (h, gh) = (step.h, GAMMA * step.h);
+        self.turn(state, step, ends);
         let zero = DualSVec64::<P>::from(0.0);
         let (mut q_dot, mut v_dot) = ([zero; 3], [zero; 3]);
         for s in 0..3 {
@@ -91,6 +92,23 @@ impl<'a, const P: usize> Again<'a, P> {
         state.q = self.base.q + q_dot[2] * gh;
         state.v = q_dot[2];
         state.z.copy_from_slice(&self.z);
+    }
+
+    /// Where the plant turns back under Coulomb friction its acceleration jumps from a₋ to a₊, and the instant
+    /// follows the parameters: ∂v₊/∂p = (a₊/a₋) ∂v₋/∂p. The steps that are gone over do not show this, as they
+    /// stay where they were.
+    fn turn(&self, state: &mut Start<DualSVec64<P>>, step: &Step, ends: [DualSVec64<P>; 2]) {
+        let Some(f_c) = self.model.contact.dry() else { return };
+        let before = state.v.re();
+        if before == 0.0 || step.v[2] * before >= 0.0 {
+            return;
+        }
+        let u = ends[0] + (ends[1] - ends[0]) * step.from;
+        let drive = self.model.drive(u, state.q, state.v).re();
+        let friction = f_c.re() * before.signum();
+        let ratio = (drive + friction) / (drive - friction);
+        let by = state.v.eps.unwrap_generic(nalgebra::Const::<P>, nalgebra::U1) * ratio;
+        state.v = DualSVec64::new(before, Derivative::some(by));
     }
 
     /// The velocity of a stage with its derivatives; leaves the stage's states in `self.z`.
