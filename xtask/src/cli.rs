@@ -176,6 +176,10 @@ pub(crate) enum Bench {
     Ensemble(EnsembleArgs),
     /// Try the properties of plants with friction on cases drawn at random.
     Properties(PropertiesArgs),
+    /// Fit records of known truth, and count how often the intervals hold it.
+    Coverage(CoverageArgs),
+    /// Time the fit of LuGre's six parameters to the record of P6.
+    Fit(FitBenchArgs),
 }
 
 #[derive(Debug, Args)]
@@ -269,6 +273,48 @@ pub(crate) struct RecordArgs {
     /// As JSON.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CoverageArgs {
+    /// The friction models; all if none is named.
+    #[arg(long, value_name = "MODEL", value_delimiter = ',')]
+    pub(crate) models: Vec<String>,
+    /// How many records of each model.
+    #[arg(long, value_name = "N", default_value_t = 400, value_parser = records)]
+    pub(crate) records: usize,
+    /// The first seed; each record has the next.
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(..1 << 62))]
+    pub(crate) seed: u64,
+    /// Threads; as many as there are processors if not given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Keep the table as data/benchmarks/coverage.csv.
+    #[arg(long)]
+    pub(crate) save: bool,
+    /// As JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FitBenchArgs {
+    /// How many times each fit is repeated.
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(crate) repeats: u32,
+    /// Build for any processor of the kind.
+    #[arg(long)]
+    pub(crate) portable: bool,
+    /// The rows as JSON, one a line.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn records(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(n) if (1..=1_000_000).contains(&n) => Ok(n),
+        _ => Err("expected a number of records, from 1 to 1000000".to_owned()),
+    }
 }
 
 #[derive(Debug, Args)]

@@ -41,7 +41,7 @@ pub(super) fn run(root: &Path, arguments: &AnchorsArgs) -> Result<Exit, Failure>
             let (program, patched) = patch::build(root, asked, native)?;
             (program, Some(patched))
         }
-        None => (built::build((root, "anchors"), &target, native, true)?, None),
+        None => (built::build((root, "simulation", "anchors"), &target, native, true)?, None),
     };
     let mut run = empty(root, arguments, program.rustc.clone(), patched)?;
     built::run(&program.program, &told, |value| take(&mut run, value, arguments.json))?;

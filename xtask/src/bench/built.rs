@@ -25,10 +25,10 @@ pub(super) struct Built {
     pub(super) packages: Vec<String>,
 }
 
-/// Builds the bench `name` of the workspace in `folder`, for this processor or for any, into `target`.
+/// Builds the bench `name` of the crate `package` in `folder`, for this processor or for any, into `target`.
 /// `fixed` holds Cargo.lock as it is.
 pub(super) fn build(
-    (folder, name): (&Path, &str),
+    (folder, package, name): (&Path, &str, &str),
     target: &Path,
     native: bool,
     fixed: bool,
@@ -37,7 +37,7 @@ pub(super) fn build(
     output::note(&format!("building the benchmark, optimised and {words}"));
     let mut cargo = Command::new(tool("CARGO", "cargo"));
     cargo
-        .args(["bench", "--quiet", "--no-run", "--package", "simulation", "--bench", name])
+        .args(["bench", "--quiet", "--no-run", "--package", package, "--bench", name])
         .args(["--message-format", "json-render-diagnostics"])
         .current_dir(folder)
         .env("CARGO_TARGET_DIR", target)

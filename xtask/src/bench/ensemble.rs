@@ -22,7 +22,8 @@ pub(super) fn run(root: &Path, arguments: &EnsembleArgs) -> Result<Exit, Failure
         told.extend(["--parameters".into(), whole.into()]);
     }
     let target = root.join("target/duhem/bench");
-    let program = built::build((root, "ensemble"), &target, !arguments.portable, true)?.program;
+    let program =
+        built::build((root, "simulation", "ensemble"), &target, !arguments.portable, true)?.program;
     built::run(&program, &told, |value| {
         if arguments.json {
             if !value["ensemble"].is_null() {

@@ -2,7 +2,9 @@
 
 mod anchors;
 mod built;
+mod coverage;
 mod ensemble;
+mod fit;
 mod machine;
 mod patch;
 mod properties;
@@ -20,6 +22,8 @@ pub(crate) fn bench(root: &Path, arguments: &BenchArgs) -> Result<Exit, Failure>
         Some(Bench::Properties(arguments)) => Ok(properties::run(arguments)),
         Some(Bench::Ensemble(arguments)) => ensemble::run(root, arguments),
         Some(Bench::Anchors(arguments)) => anchors::run(root, arguments),
+        Some(Bench::Coverage(arguments)) => coverage::run(root, arguments),
+        Some(Bench::Fit(arguments)) => fit::run(root, arguments),
         None => anchors::run(root, &arguments.anchors),
     }
 }

@@ -26,7 +26,12 @@ pub(super) fn build(root: &Path, asked: &str, native: bool) -> Result<(Built, Pa
     let path = toml::Value::from(folder.display().to_string());
     let _ = write!(text, "\n[patch.crates-io]\n{library} = {{ path = {path} }}\n");
     write_whole(&manifest, text.as_bytes())?;
-    let built = built::build((&copy, "anchors"), &root.join("target/duhem/bench"), native, false)?;
+    let built = built::build(
+        (&copy, "simulation", "anchors"),
+        &root.join("target/duhem/bench"),
+        native,
+        false,
+    )?;
     confirm(library, &folder, &built.packages)?;
     Ok((built, patched))
 }
