@@ -8,6 +8,7 @@ pub mod binding;
 mod blocks;
 mod bootstrap;
 pub mod data;
+mod estimate;
 mod gap;
 mod imposed;
 mod interval;
@@ -17,18 +18,21 @@ pub mod newton;
 pub mod problem;
 pub mod search;
 mod starts;
+mod way;
 pub mod window;
 
 pub use data::{Data, Seen};
+pub use estimate::Estimate;
 pub use gap::{Misfit, Simulated, Trace, simulate};
 pub use models::{Candidate, candidates};
 
 use crate::Rig;
-use binding::Free;
-use gap::{gap, residuals, traces, weights_of};
+use estimate::{correlation, estimates};
+use gap::{gap, traces};
 use interval::{Interval, Spread};
 use problem::{Problem, Weights};
-use search::{End, Found, Patience, TO_THE_END};
+use search::{End, Found, TO_THE_END};
+use way::best_way;
 
 /// What the fit is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,32 +102,6 @@ pub enum Way {
     ClosedLoop,
 }
 
-/// A fitted parameter.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Estimate {
-    /// Its name.
-    pub name: String,
-    /// Its nominal value [its unit].
-    pub given: f64,
-    /// Its fitted value.
-    pub found: f64,
-    /// Its standard error.
-    pub standard_error: f64,
-    /// Whether it lies further from its nominal value than two standard errors and one per cent.
-    pub moved: bool,
-    /// Whether the record identifies it: the 95 % interval is closed on both sides, or was not asked for and
-    /// the standard error is finite.
-    pub identified: bool,
-    /// The 95 % interval by profile likelihood; a side that is not there was not found.
-    pub interval: [Option<f64>; 2],
-    /// The 95 % interval from the standard error.
-    pub asymptotic: [f64; 2],
-    /// The 95 % interval of the bootstrap over blocks.
-    pub bootstrap: Option<[f64; 2]>,
-    /// Whether it ended as far from its nominal size as it may go.
-    pub at_bound: bool,
-}
-
 /// A fit.
 #[derive(Debug, Clone)]
 pub struct Fit {
@@ -159,23 +137,13 @@ pub struct Fit {
 const TOLERANCE: f64 = 1e-5;
 
 /// A step may be wrong by this share of the noise.
-const BELOW_NOISE: f64 = 0.1;
+const BELOW_NOISE: f64 = 0.01;
 
 /// The change of a parameter by shorter steps that is not worth taking them [standard errors].
 const STEPS_MATTER: f64 = 0.1;
 
 /// So many times the steps may be made ten times as accurate.
 const FINER: usize = 3;
-
-/// A single run must explain the record down to its noise, or windows are preferred: what it leaves, as the noise
-/// of the measured input does, adds up from sample to sample, and is not what the intervals are made for [1].
-const AS_GOOD: f64 = 2.0;
-
-/// A single run that leaves so much more than the noise after a first look is given up [1].
-const HOPELESS: f64 = 1e4;
-
-/// The first look at a single run.
-const A_GLANCE: Patience = Patience { misfit: 1.0, simulations: 8 };
 
 /// Fits what is free in `rig` to `data`.
 pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
@@ -321,85 +289,6 @@ fn tolerance(data: &Data) -> f64 {
     (BELOW_NOISE * least).clamp(1e-4 * TOLERANCE, TOLERANCE)
 }
 
-/// The way in which the record is simulated, and the minimum found so.
-fn best_way<'a>(
-    whole: Problem<'a>,
-    options: &Options,
-) -> Result<(Problem<'a>, Found, Way), FitError> {
-    let data = whole.data;
-    let one = if whole.data.force.is_some() {
-        Some(Way::Imposed)
-    } else if whole.closed_loop {
-        Some(Way::ClosedLoop)
-    } else {
-        None
-    };
-    if let Some(way) = one {
-        let (problem, found) = weighed(whole, options)?;
-        return Ok((problem, found, way));
-    }
-    let windows = Problem { windows: blocks::blocks(data, options.window), ..whole.clone() };
-    if options.window.is_some() {
-        let (problem, found) = weighed(windows, options)?;
-        return Ok((problem, found, Way::Windows));
-    }
-    let by_windows = weighed(windows, options)?;
-    if mean_of(&search::search(&whole, &by_windows.1.x, None, &A_GLANCE)) > HOPELESS {
-        return Ok((by_windows.0, by_windows.1, Way::Windows));
-    }
-    let single = starts::best(&whole, options, Some(&by_windows.1.x));
-    if mean_of(&single) <= AS_GOOD {
-        let (problem, found) = reweighed(whole, single);
-        return Ok((problem, found, Way::OneRun));
-    }
-    // A single run sees more than windows do, and may have found the better minimum.
-    let again = search::search(&by_windows.0, &single.x, None, &TO_THE_END);
-    let found = if again.misfit < by_windows.1.misfit { again } else { by_windows.1 };
-    Ok((by_windows.0, found, Way::Windows))
-}
-
-/// The mean squared weighed residual [1].
-fn mean_of(found: &Found) -> f64 {
-    found.misfit / found.pieces.iter().map(|p| p.residuals.len()).sum::<usize>().max(1) as f64
-}
-
-/// The best of several starts, then once more with each channel weighed by what its residuals are.
-fn weighed<'a>(problem: Problem<'a>, options: &Options) -> Result<(Problem<'a>, Found), FitError> {
-    let found = starts::best(&problem, options, None);
-    if found.end == End::NoMotion {
-        return Err(FitError::NoMotion);
-    }
-    Ok(reweighed(problem, found))
-}
-
-/// Where a channel's residuals are larger than its noise the model lacks something there, and the channel counts
-/// for less; how much less follows from the minimum, and so again until it no longer changes.
-fn reweighed(problem: Problem<'_>, found: Found) -> (Problem<'_>, Found) {
-    let (mut problem, mut found) = (problem, found);
-    let noise = problem.weights;
-    for _ in 0..REWEIGHED {
-        let rms = residuals(&problem, &found);
-        let (mut weights, mut floor, mut old) = (problem.weights, noise, problem.weights);
-        let mut change: f64 = 0.0;
-        let now = weights_of(&problem, &mut weights).into_iter();
-        let least = weights_of(&problem, &mut floor).into_iter();
-        let before = weights_of(&problem, &mut old).into_iter();
-        for (((now, least), before), (_, rms)) in now.zip(least).zip(before).zip(&rms) {
-            *now = if *rms > 1.3 * *least { *rms } else { *least };
-            change = change.max((*now / *before).ln().abs());
-        }
-        if change < 0.2 {
-            break;
-        }
-        problem = Problem { weights, ..problem };
-        found = search::search(&problem, &found.x, None, &TO_THE_END);
-    }
-    (problem, found)
-}
-
-/// So many times the channels are weighed anew.
-const REWEIGHED: usize = 4;
-
 /// The nominal parameters' misfit, in the same windows.
 fn start_misfit(problem: &Problem<'_>) -> Found {
     let x: Vec<f64> = starts::nominal(problem);
@@ -414,51 +303,6 @@ fn fitted(problem: &Problem<'_>, found: &Found) -> Rig {
         binding::set(&mut rig, &free.name, problem.value(i, &found.x));
     }
     rig
-}
-
-fn correlation(spread: &Spread) -> Vec<Vec<f64>> {
-    let c = &spread.covariance;
-    (0..c.nrows())
-        .map(|i| (0..c.nrows()).map(|j| c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt()).collect())
-        .collect()
-}
-
-fn estimates(
-    problem: &Problem<'_>,
-    found: &Found,
-    spread: &Spread,
-    (profiles, drawn, asked): (&[Interval], &[Option<[f64; 2]>], bool),
-) -> Vec<Estimate> {
-    let one = |(i, free): (usize, &Free)| {
-        let at = |x: f64| {
-            let mut there = found.x.clone();
-            there[i] = x;
-            problem.value(i, &there)
-        };
-        let value = at(found.x[i]);
-        let error = spread.covariance[(i, i)].sqrt() * spread.inflation[i];
-        let slope = free.slope(free.value(found.x[i])).abs();
-        let standard_error = slope * error;
-        let mut interval = profiles[i].map(|x| x.map(at));
-        if matches!(free.scale, binding::Scale::InverseSquare(_)) {
-            interval.reverse();
-        }
-        Estimate {
-            name: free.name.clone(),
-            given: free.given,
-            found: value,
-            standard_error,
-            moved: (value - free.given).abs() > (2.0 * standard_error).max(0.01 * free.given.abs()),
-            identified: found.end == End::Converged
-                && standard_error.is_finite()
-                && (!asked || interval.iter().all(Option::is_some)),
-            interval,
-            asymptotic: [-1.0, 1.0].map(|s| value + s * interval::NORMAL * standard_error),
-            bootstrap: drawn[i],
-            at_bound: free.at_bound(free.value(found.x[i])),
-        }
-    };
-    problem.free.iter().enumerate().map(one).collect()
 }
 
 /// The Gauss–Newton step that ten times more accurate steps ask for, in standard errors.
