@@ -28,8 +28,7 @@ use std::{collections::BTreeMap, error::Error, io::Write, process::ExitCode};
 /// What is fitted.
 const FREE: [&str; 6] = ["f_c", "f_s", "v_s", "sigma_0", "sigma_1", "sigma_2"];
 /// The starts: what every parameter is multiplied with.
-const STARTS: [(&str, [f64; 6]); 2] =
-    [("alt", [0.7, 1.3, 0.7, 1.3, 0.7, 1.3]), ("all", [1.3; 6])];
+const STARTS: [(&str, [f64; 6]); 2] = [("alt", [0.7, 1.3, 0.7, 1.3, 0.7, 1.3]), ("all", [1.3; 6])];
 /// The noise, of the channel's largest value.
 const NOISE: f64 = 0.01;
 /// The steps' tolerance, that of `identify::fit::fit`.
@@ -68,7 +67,9 @@ fn all() -> Result<(), Box<dyn Error>> {
     // One thread, as the peers have.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     for (name, factors) in STARTS {
-        tell(&json!({ "fit": pool.install(|| timed(name, factors, &record, repeats).map_err(|why| why.to_string()))? }))?;
+        tell(
+            &json!({ "fit": pool.install(|| timed(name, factors, &record, repeats).map_err(|why| why.to_string()))? }),
+        )?;
     }
     Ok(())
 }
@@ -205,11 +206,7 @@ fn rig(friction: &Parameters) -> Rig {
         title: "the rig of P6".to_owned(),
         kind: "drum",
         plant: plant.iter().map(|(key, value)| ((*key).to_owned(), *value)).collect(),
-        friction: Friction {
-            name: "lugre".to_owned(),
-            parameters: friction.clone(),
-            sigma_2: 0.0,
-        },
+        friction: Friction { name: "lugre".to_owned(), parameters: friction.clone(), sigma_2: 0.0 },
         free: FREE.map(str::to_owned).to_vec(),
         channels: BTreeMap::from([("current".to_owned(), current)]),
         controller: None,

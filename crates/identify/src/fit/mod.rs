@@ -218,7 +218,8 @@ fn settled<'a>(mut problem: Problem<'a>, found: Found) -> Minimum<'a> {
         }
         problem.tolerance *= 0.1;
         let spent = found.simulations;
-        found = newton::settle(&problem, search::search(&problem, &found.x, None, &TO_THE_END), None);
+        found =
+            newton::settle(&problem, search::search(&problem, &found.x, None, &TO_THE_END), None);
         for (total, before) in found.simulations.iter_mut().zip(spent) {
             *total += before;
         }

@@ -91,11 +91,7 @@ impl<'a, const P: usize> Again<'a, P> {
         state.q = self.base.q + q_dot[2] * gh;
         // Where the motion turns the velocity is zero, but the time of it moves with the parameters, and with it
         // the velocity after it.
-        state.v = if step.turn == 1.0 {
-            q_dot[2]
-        } else {
-            (q_dot[2] - q_dot[2].re()) * step.turn
-        };
+        state.v = if step.turn == 1.0 { q_dot[2] } else { (q_dot[2] - q_dot[2].re()) * step.turn };
         state.z.copy_from_slice(&self.z);
     }
 
