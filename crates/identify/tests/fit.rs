@@ -111,6 +111,14 @@ fn what_a_record_does_not_show_is_said_so_and_not_made_up() {
         rig("name = \"dahl\"\nf_c = 20.0\nsigma = 4000.0\ngamma = 0.0", "\"f_c\", \"sigma\"");
     let data = record(&truth, 6.0, 5);
     let fit = fit(&truth, &data, &quick()).expect("a fit");
+    assert_eq!(
+        fit.end,
+        End::Converged,
+        "{:?} {:?} {}",
+        fit.parameters,
+        fit.simulations,
+        fit.step_error
+    );
     let f_c = &fit.parameters[0];
     assert!(!f_c.identified, "F_C {:?} of a contact that never slides", f_c.interval);
     assert_eq!(f_c.interval[1], None, "no largest F_C");

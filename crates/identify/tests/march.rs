@@ -1,49 +1,119 @@
-//! The march against the simulation's own methods and closed forms.
+//! The march against the located method of `simulation`, which shares no code with it, and a closed form.
 
+use duhem::{Input, MODELS, Parameters, Plant, Rig};
 use identify::{
     Hold,
-    march::{Balance, Contact, Drive, Model, Start, Tolerance, march},
+    march::{Balance, Contact, Drive, Model, Motion, Start, Tolerance, march},
 };
+use integrate::{Limits, Outcome};
+use simulation::{Task, adaptive::ADAPTIVE};
 
-fn p6() -> Model<f64> {
-    Model {
-        balance: Balance {
-            mass: 3e-4,
-            gain: 16.5,
-            constant: 0.0,
-            stiffness: 4.0 * 0.0254 * 0.0254,
-            damping: 0.0,
-            gravity: 0.0,
-        },
-        contact: Contact::LuGre {
-            f_c: 0.6,
-            f_s: 1.0,
-            v_s: 1e-3,
-            sigma_0: 1e3,
-            sigma_1: 1000.0_f64.sqrt(),
-        },
-        sigma_2: 1.3,
-        offset: 0.0,
+fn times(duration: f64, rate: f64) -> Vec<f64> {
+    let samples = (duration * rate) as u32;
+    (0..=samples).map(|i| f64::from(i) / rate).collect()
+}
+
+fn driven(plant: &Plant, contact: Contact<f64>, sigma_2: f64) -> Model<f64> {
+    let balance = Balance {
+        mass: plant.mass,
+        gain: plant.gain,
+        constant: plant.offset,
+        stiffness: plant.stiffness,
+        damping: 0.0,
+        gravity: 0.0,
+    };
+    Model { balance, contact, sigma_2, offset: 0.0 }
+}
+
+fn go(model: &Model<f64>, values: &[f64], time: &[f64], (q, tight): (f64, f64)) -> Motion {
+    let drive = Drive::Recorded { values, hold: Hold::Linear };
+    let start = Start { q, v: 0.0, z: vec![0.0; model.contact.states()] };
+    let tolerance = Tolerance { q: 0.3 * tight, v: 0.2 * tight, z: tight, steps: 10_000_000 };
+    march(model, &drive, time, &start, &tolerance).expect("a motion")
+}
+
+/// The displacement by the located method at rtol 1e-9, the same straight lines between the samples.
+fn located(
+    name: &str,
+    parameters: &Parameters,
+    plant: Plant,
+    (u, time): (&[f64], &[f64]),
+) -> Vec<f64> {
+    // After the span it returns to its first value, as a period has to.
+    let after = |all: &[f64], last: f64| [all, &[last]].concat();
+    let input = Input::polyline(after(time, time[time.len() - 1] + 1.0), after(u, u[0]));
+    let task = Task {
+        model: MODELS.iter().find(|m| m.name == name).expect("a model of the list"),
+        parameters: parameters.clone(),
+        plant: Some(plant),
+        input: input.expect("an input"),
+        y0: vec![0.0; 3],
+        span: (time[0], time[time.len() - 1]),
+    };
+    let own = ADAPTIVE.iter().find(|own| own.name == "radau-located").expect("in the list");
+    let mut states = vec![0.0; 3 * time.len()];
+    let limits = Limits::default();
+    let delivered = (own.build)(&task).expect("it holds").deliver(1e-9, &limits, time, &mut states);
+    assert_eq!(delivered.outcome, Outcome::Solved, "{name}");
+    states.iter().step_by(3).copied().collect()
+}
+
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let size = b.iter().fold(0.0, |m: f64, q| m.max(q.abs()));
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / size
+}
+
+#[test]
+fn the_drum_moves_as_by_the_located_method_and_closer_with_shorter_steps() {
+    let plant = Rig::PAPER.plant();
+    let time = times(20.0, 100.0);
+    let u: Vec<f64> = time.iter().map(|t| 0.05 * (0.2 * std::f64::consts::PI * t).sin()).collect();
+    let sigma_1 = 1000.0_f64.sqrt();
+    let keys = [
+        ("f_c", 0.6),
+        ("f_s", 1.0),
+        ("v_s", 1e-3),
+        ("sigma_0", 1e3),
+        ("sigma_1", sigma_1),
+        ("sigma_2", 1.3),
+    ];
+    let right = located("lugre", &keys.into_iter().collect(), plant, (&u, &time));
+    let contact = Contact::LuGre { f_c: 0.6, f_s: 1.0, v_s: 1e-3, sigma_0: 1e3, sigma_1 };
+    let model = driven(&plant, contact, 1.3);
+    // The tolerance of a fit, and a hundred times as close.
+    for (tight, most) in [(1e-5, 1e-5), (1e-7, 1e-7)] {
+        let error = apart(&go(&model, &u, &time, (0.0, tight)).q, &right);
+        assert!(error < most, "LuGre at {tight:e}: off by {error:e} of the largest angle");
     }
 }
 
 #[test]
-fn speed() {
-    let time: Vec<f64> = (0..5001).map(|i| f64::from(i) * 0.01).collect();
-    let u: Vec<f64> = time.iter().map(|t| 0.05 * (0.2 * std::f64::consts::PI * t).sin()).collect();
-    let start = Start { q: 0.0, v: 0.0, z: vec![0.0] };
-    let drive = Drive::Recorded { values: &u, hold: Hold::Linear };
-    let mut last: Option<Vec<f64>> = None;
-    for e in [3, 4, 5, 6, 7, 8, 9] {
-        let r = 10f64.powi(-e);
-        let tol = Tolerance { q: r * 0.3, v: r * 0.2, z: r, steps: 10_000_000 };
-        let t = std::time::Instant::now();
-        let m = march(&p6(), &drive, &time, &start, &tol).unwrap();
-        let dt = t.elapsed();
-        let d = last.map_or(f64::NAN, |l| {
-            l.iter().zip(&m.q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-        });
-        println!("{r:e} steps {} {dt:?} change {d:.1e} end {}", m.tape.steps(), m.q[5000]);
-        last = Some(m.q);
+fn a_mass_with_dahl_friction_moves_as_by_the_located_method() {
+    let plant = Plant::mass_spring(1.0, 1.5);
+    let time = times(30.0, 50.0);
+    let u: Vec<f64> = time.iter().map(|t| 5.0 * (0.7 * t).sin()).collect();
+    let keys = [("f_c", 0.75), ("sigma", 75.0), ("gamma", 1.0)];
+    let right = located("dahl", &keys.into_iter().collect(), plant, (&u, &time));
+    let contact = Contact::Dahl { f_c: 0.75, sigma: 75.0, gamma: 1.0 };
+    let error = apart(&go(&driven(&plant, contact, 0.0), &u, &time, (0.0, 1e-7)).q, &right);
+    assert!(error < 1e-5, "off by {error:e} of the largest displacement");
+}
+
+#[test]
+fn a_mass_with_coulomb_friction_loses_two_f_c_over_k_each_half_swing_and_stops() {
+    // From q₀ at rest the turning points are q₀ − 2nF_C/k in size, π√(m/k) apart, until k|q| < F_C.
+    let (mass, stiffness, f_c, q_0) = (2.0, 50.0, 3.0, 0.5_f64);
+    let half = std::f64::consts::PI * f64::sqrt(mass / stiffness);
+    let time: Vec<f64> = (0..=8).map(|n| f64::from(n) * half).collect();
+    let u = vec![0.0; time.len()];
+    let model = driven(&Plant::mass_spring(mass, stiffness), Contact::Coulomb { f_c }, 0.0);
+    let motion = go(&model, &u, &time, (q_0, 1e-8));
+    let (mut q, mut sign) = (q_0, 1.0);
+    for (n, found) in motion.q.iter().enumerate() {
+        assert!((found - sign * q).abs() < 1e-6, "turn {n}: {found} m for {} m", sign * q);
+        if stiffness * q > f_c {
+            (q, sign) = (q - 2.0 * f_c / stiffness, -sign);
+        }
     }
+    assert_eq!(motion.v.last(), Some(&0.0), "it sticks exactly");
 }

@@ -186,7 +186,7 @@ struct Minimum<'a> {
 }
 
 /// The minimum near where a search ended; the steps get shorter until they do not matter to it.
-fn settled<'a>(mut problem: Problem<'a>, found: Found) -> Minimum<'a> {
+fn settled(mut problem: Problem<'_>, found: Found) -> Minimum<'_> {
     let mut found = newton::settle(&problem, found, None);
     let mut round = 0;
     loop {
@@ -199,8 +199,12 @@ fn settled<'a>(mut problem: Problem<'a>, found: Found) -> Minimum<'a> {
         round += 1;
         problem.tolerance *= 0.1;
         let spent = found.simulations;
-        found =
-            newton::settle(&problem, search::search(&problem, &found.x, None, &TO_THE_END), None);
+        let again = search::search(&problem, &found.x, None, &TO_THE_END);
+        if again.end == End::NoMotion {
+            // More steps than are allowed: what there is is as good as it gets.
+            return Minimum { problem, found, local, spread, step_error };
+        }
+        found = newton::settle(&problem, again, None);
         for (total, before) in found.simulations.iter_mut().zip(spent) {
             *total += before;
         }

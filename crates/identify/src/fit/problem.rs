@@ -238,7 +238,10 @@ impl Problem<'_> {
     fn tolerance(&self) -> Tolerance {
         let q = self.data.displacement.as_ref().map_or(1.0, |d| d.span.max(d.noise));
         let v = self.data.speed().max(1e-12);
-        let steps = 8 * self.data.time.len() + 10_000;
+        // A step of order 3 gets shorter with the cube root of what it may be wrong by.
+        let finer = (1e-5 / self.tolerance).cbrt().max(1.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within usize")]
+        let steps = (finer * (8 * self.data.time.len() + 10_000) as f64) as usize;
         Tolerance { q: self.tolerance * q, v: self.tolerance * v, z: self.tolerance, steps }
     }
 
