@@ -9,7 +9,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 const RATE: f64 = 100.0;
-const DURATION: f64 = 12.0;
+const SAMPLES: u32 = 1200;
 /// Standard deviation of the sensors [m] and [m/s].
 const NOISE: [f64; 2] = [2e-4, 5e-3];
 
@@ -24,8 +24,7 @@ fn rig(friction: &str, free: &str) -> Rig {
 
 /// A record of `rig` under a force of this `amplitude` [N], with noise of its own.
 fn record(rig: &Rig, amplitude: f64, seed: u64) -> Data {
-    let samples = (DURATION * RATE) as u32;
-    let time: Vec<f64> = (0..samples).map(|i| f64::from(i) / RATE).collect();
+    let time: Vec<f64> = (0..SAMPLES).map(|i| f64::from(i) / RATE).collect();
     let wave = |t: f64| (1.3 * t).sin() + 0.5 * (4.1 * t).sin();
     let input: Vec<f64> = time.iter().map(|t| amplitude * wave(*t)).collect();
     let model = binding::model::<f64>(rig, &|_| None);

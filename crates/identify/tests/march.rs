@@ -8,8 +8,7 @@ use identify::{
 use integrate::{Limits, Outcome};
 use simulation::{Task, adaptive::ADAPTIVE};
 
-fn times(duration: f64, rate: f64) -> Vec<f64> {
-    let samples = (duration * rate) as u32;
+fn times(samples: u32, rate: f64) -> Vec<f64> {
     (0..=samples).map(|i| f64::from(i) / rate).collect()
 }
 
@@ -66,7 +65,7 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn the_drum_moves_as_by_the_located_method_and_closer_with_shorter_steps() {
     let plant = Rig::PAPER.plant();
-    let time = times(20.0, 100.0);
+    let time = times(2000, 100.0);
     let u: Vec<f64> = time.iter().map(|t| 0.05 * (0.2 * std::f64::consts::PI * t).sin()).collect();
     let sigma_1 = 1000.0_f64.sqrt();
     let keys = [
@@ -90,7 +89,7 @@ fn the_drum_moves_as_by_the_located_method_and_closer_with_shorter_steps() {
 #[test]
 fn a_mass_with_dahl_friction_moves_as_by_the_located_method() {
     let plant = Plant::mass_spring(1.0, 1.5);
-    let time = times(30.0, 50.0);
+    let time = times(1500, 50.0);
     let u: Vec<f64> = time.iter().map(|t| 5.0 * (0.7 * t).sin()).collect();
     let keys = [("f_c", 0.75), ("sigma", 75.0), ("gamma", 1.0)];
     let right = located("dahl", &keys.into_iter().collect(), plant, (&u, &time));
