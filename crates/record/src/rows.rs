@@ -304,7 +304,7 @@ table! {
 }
 
 table! {
-    /// One friction model, fitted to every second block of a record and judged on the others.
+    /// One friction model, fitted to half of the blocks of a record and judged on the others.
     pub struct ModelRow {
         /// The fit.
         fit: String = "fit",

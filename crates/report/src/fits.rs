@@ -10,7 +10,7 @@ const PARAMETERS_READ: &str = "Given is what the rig file has. The interval is t
      ✗ stands behind an interval that does not hold the truth.";
 
 /// How the table of models is read.
-const MODELS_READ: &str = "Each model was fitted to every second block of the record and judged on the \
+const MODELS_READ: &str = "Each model was fitted to half of the blocks of the record and judged on the \
      others. Errors are root mean squares of the residuals in units of the channels' noise: 1 is as good as the \
      record itself.";
 

@@ -41,7 +41,7 @@ fn best_model(plan: &Plan, subject: &Subject) -> Result<Checked, String> {
         error: Some((ratio - second).abs()),
         unit: "1",
         how: format!(
-            "every second block of the record fitted, the others held out; root mean square of the residuals in \
+            "half of the blocks of the record fitted, the others held out; root mean square of the residuals in \
              units of the noise, held out (fitted): {}; the number is the next best model's held-out error over \
              that of {}, its error the difference to the same ratio on the fitted blocks; holds if both ratios \
              are above 1",

@@ -165,7 +165,7 @@ quantity!(
     "held_out_error",
     "1",
     "residual of a friction model on blocks it was not fitted to, in units of the noise",
-    ("root mean square over every second block", "the same over the blocks it was fitted to"),
+    ("root mean square over the blocks held out", "the same over the blocks it was fitted to"),
     &[],
     |plan, subject| {
         let row = model(at(plan, subject), &subject.expect)?;

@@ -177,7 +177,7 @@ fn bound(
             *x += (moved * c[(j, i)] / c[(i, i)]).clamp(-1.0, 1.0);
         }
         there[i] = found.x[i] + sign * away;
-        let patience = Patience { misfit: 0.005 * limit, simulations: 8 };
+        let patience = Patience { misfit: 0.005 * limit, simulations: 24 };
         let near = search(problem, &there, Some(i), &patience);
         if near.misfit < found.misfit - LOWER * spread.variance {
             return Side::Lower(Box::new(near));
