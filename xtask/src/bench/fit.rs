@@ -48,7 +48,7 @@ mod tests {
             "simulations": 12, "with_derivatives": 10,
         });
         let told = words(&row);
-        for part in ["`alt`", "76 ms", "converged", "0.99967", "12 simulations", "10 with"] {
+        for part in ["`alt`", "76.0 ms", "converged", "0.99967", "12 simulations", "10 with"] {
             assert!(told.contains(part), "no `{part}` in `{told}`");
         }
     }
