@@ -130,7 +130,7 @@ fn bound(
 ) -> Option<f64> {
     let c = &spread.covariance;
     let error = c[(i, i)].sqrt() * spread.inflation[i];
-    let mut x = found.x.clone();
+    let (mut x, mut pieces) = (found.x.clone(), found.pieces.clone());
     let (mut inside, mut inside_root) = (0.0, 0.0);
     let mut outside: Option<(f64, f64)> = None;
     let mut away = (NORMAL * error).clamp(1e-9, 2.0);
@@ -141,15 +141,20 @@ fn bound(
             *x += (moved * c[(j, i)] / c[(i, i)]).clamp(-1.0, 1.0);
         }
         there[i] = found.x[i] + sign * away;
-        let patience = Patience { misfit: 0.05 * limit, simulations: 8 };
-        let near = search(problem, &there, Some(i), &patience);
+        let patience = Patience { misfit: 0.01 * limit, simulations: 8 };
+        let mut near = search(problem, (&there, Some(&pieces)), Some(i), &patience);
+        if near.misfit - found.misfit > 1.1 * limit {
+            // The windows' starts may have gone astray; from where they were seen they may not.
+            let other = search(problem, (&there, None), Some(i), &patience);
+            near = if other.misfit < near.misfit { other } else { near };
+        }
         let root = ((near.misfit - found.misfit) / limit).max(0.0).sqrt();
         if (root - 1.0).abs() < 0.05 {
             return Some(found.x[i] + sign * away / root);
         }
         if root < 1.0 {
             (inside, inside_root) = (away, root);
-            x = near.x;
+            (x, pieces) = (near.x, near.pieces);
         } else {
             outside = Some((away, root));
         }

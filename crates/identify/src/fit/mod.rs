@@ -218,8 +218,8 @@ fn settled<'a>(mut problem: Problem<'a>, found: Found) -> Minimum<'a> {
         }
         problem.tolerance *= 0.1;
         let spent = found.simulations;
-        found =
-            newton::settle(&problem, search::search(&problem, &found.x, None, &TO_THE_END), None);
+        let from = (found.x.as_slice(), Some(found.pieces.as_slice()));
+        found = newton::settle(&problem, search::search(&problem, from, None, &TO_THE_END), None);
         for (total, before) in found.simulations.iter_mut().zip(spent) {
             *total += before;
         }
@@ -287,7 +287,7 @@ fn best_way<'a>(
     };
     let unweighed = search::search(
         &Problem { windows: by_windows.0.windows.clone(), ..whole.clone() },
-        &by_windows.1.x,
+        (&by_windows.1.x, Some(&by_windows.1.pieces)),
         None,
         &TO_THE_END,
     );
@@ -323,7 +323,8 @@ fn reweighed<'a>(problem: Problem<'a>, found: Found) -> (Problem<'a>, Found) {
     if !worse {
         return (problem, found);
     }
-    let again = search::search(&problem, &found.x, None, &TO_THE_END);
+    let from = (found.x.as_slice(), Some(found.pieces.as_slice()));
+    let again = search::search(&problem, from, None, &TO_THE_END);
     (problem, again)
 }
 
