@@ -7,6 +7,9 @@ use std::{env, error::Error, fmt::Write, fs, path::Path, process::Command};
 /// The crates whose code decides the numbers of a case and the form of its record.
 const COMPUTING: [&str; 5] = ["duhem", "integrate", "simulation", "record", "experiment"];
 
+/// The crate that fits besides, and so decides the numbers of fits alone.
+const FITTING: &str = "identify";
+
 fn main() -> Result<(), Box<dyn Error>> {
     let root = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("../..");
     let mut hash = Sha256::new();
@@ -21,12 +24,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     for name in ["TARGET", "PROFILE", "CARGO_ENCODED_RUSTFLAGS"] {
         hash.update(env::var(name).unwrap_or_default());
     }
-    let text = hash.finalize().iter().fold(String::new(), |mut text, byte| {
+    println!("cargo:rustc-env=DUHEM_SOURCES={}", text(hash.clone()));
+    add(&mut hash, &root, &format!("crates/{FITTING}/src"))?;
+    add(&mut hash, &root, &format!("crates/{FITTING}/Cargo.toml"))?;
+    println!("cargo:rustc-env=DUHEM_FIT_SOURCES={}", text(hash));
+    Ok(())
+}
+
+fn text(hash: Sha256) -> String {
+    hash.finalize().iter().fold(String::new(), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");
         text
-    });
-    println!("cargo:rustc-env=DUHEM_SOURCES={text}");
-    Ok(())
+    })
 }
 
 /// Adds a file, or all files of a folder in the order of their names: name, length, content.

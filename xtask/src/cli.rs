@@ -46,6 +46,14 @@ pub(crate) enum Command {
         #[arg(long, conflicts_with = "json")]
         markdown: bool,
     },
+    /// Say what is wrong with a record of a drive, and what it cannot tell.
+    ///
+    /// Ends with 1 if there are problems; notes are none. The record is CSV, Parquet or MATLAB 5.
+    CheckData(CheckDataArgs),
+    /// Fit the free parameters of a rig file to a record of its drive, with intervals and rival models.
+    Fit(FitArgs),
+    /// Run a rig's model on a record's inputs, beside the record.
+    Simulate(SimulateArgs),
     /// Time the methods on the anchors, or run what else takes long.
     Bench(BenchArgs),
     /// Compare two saved runs of the benchmark.
@@ -70,6 +78,84 @@ pub(crate) enum Command {
         #[arg(long, conflicts_with = "json")]
         equations: bool,
     },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckDataArgs {
+    /// The record.
+    pub(crate) record: PathBuf,
+    /// The rig file that says which column is what; without, each column is examined for itself.
+    #[arg(long, value_name = "RIG")]
+    pub(crate) rig: Option<PathBuf>,
+    /// As JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// How a fit is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum FitMethod {
+    /// On simulated motions.
+    Simulation,
+    /// On the filtered position's differences, by linear least squares.
+    Regression,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FitArgs {
+    /// The record: CSV, Parquet or MATLAB 5.
+    pub(crate) record: PathBuf,
+    /// The rig file: plant, friction, what is free, which column is what.
+    #[arg(long, value_name = "RIG")]
+    pub(crate) rig: PathBuf,
+    /// How.
+    #[arg(long, value_enum, default_value_t = FitMethod::Simulation)]
+    pub(crate) method: FitMethod,
+    /// A record that is not fitted, to judge by.
+    #[arg(long, value_name = "RECORD")]
+    pub(crate) holdout: Option<PathBuf>,
+    /// Where the model goes: model.toml, model.h, fit.json, simulated.csv.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Simulate in windows of so many seconds; found from the record if not given.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) window: Option<f64>,
+    /// Starts beside the nominal one.
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u8).range(..=100))]
+    pub(crate) starts: u8,
+    /// Seed of starts and bootstrap.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(..1 << 62))]
+    pub(crate) seed: u64,
+    /// No profile intervals and no rival models.
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// A friction for each direction, by regression.
+    #[arg(long)]
+    pub(crate) by_direction: bool,
+    /// Threads; as many as there are processors if not given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// As JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SimulateArgs {
+    /// The record: CSV, Parquet or MATLAB 5.
+    pub(crate) record: PathBuf,
+    /// The rig file.
+    #[arg(long, value_name = "RIG")]
+    pub(crate) rig: PathBuf,
+    /// In windows of so many seconds, each from its own start; in one run if not given.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(crate) window: Option<f64>,
+    /// Where simulated.csv goes.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// As JSON.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

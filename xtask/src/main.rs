@@ -1,14 +1,17 @@
 //! `cargo xtask`: the only program, and the only place that prints.
 
 mod bench;
+mod check_data;
 mod claims;
 mod cli;
 mod compare;
 mod exit;
+mod fit;
 mod list;
 mod new;
 mod output;
 mod progress;
+mod recorded;
 mod reproduce;
 mod root;
 mod saved;
@@ -45,7 +48,10 @@ fn run(cli: &Cli) -> Result<Exit, Failure> {
         Command::Show { name, json } => list::show(&root, name, *json),
         Command::Claims { markdown: true, .. } => claims::markdown(&root),
         Command::Claims { json, .. } => claims::claims(&root, *json),
+        Command::CheckData(arguments) => check_data::check_data(arguments),
         Command::Bench(arguments) => bench::bench(&root, arguments),
+        Command::Fit(arguments) => fit::fit(arguments),
+        Command::Simulate(arguments) => fit::simulate(arguments),
         Command::Compare(arguments) => compare::compare(&root, arguments),
         Command::Record(arguments) => synthetic::record(&root, arguments),
         Command::New { what } => new::new(&root, what),

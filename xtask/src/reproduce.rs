@@ -9,7 +9,7 @@ use crate::{
     root, screen,
 };
 use experiment::{Drift, Finished, Options, Plan, WATCHDOG, Why, drift, run, summary};
-use record::{Store, Summary, write_whole};
+use record::{CaseRow, Key, Store, Summary, write_whole};
 use serde_json::json;
 use std::{
     fs,
@@ -84,17 +84,20 @@ fn run_one(
     let finished = run(plan, &options, &|progress| line.tell(progress))?;
     drop(line);
     if arguments.explain {
+        let fits = plan.fits.iter().filter_map(|fit| Some((fit, fit.done()?)));
+        for (fit, done) in fits {
+            output::note(&explain(&format!("fit {}", fit.name), (&done.key, &done.why)));
+        }
         for case in &finished {
-            output::note(&explain(case));
+            output::note(&explain(&name(&case.record.row), (&case.key, &case.why)));
         }
     }
     Ok(finished)
 }
 
-fn explain(case: &Finished) -> String {
-    let row = &case.record.row;
-    let key = &case.key.as_str()[..12];
-    let why = match &case.why {
+fn explain(name: &str, (key, why): (&Key, &Why)) -> String {
+    let key = &key.as_str()[..12];
+    let why = match why {
         Why::Reused => format!("reused: record {key} holds it"),
         Why::New => format!(
             "ran: no record {key} (it never ran, or its parameters, our sources or a dependency changed)"
@@ -102,9 +105,14 @@ fn explain(case: &Finished) -> String {
         Why::Damaged(how) => format!("ran: record {key} is damaged: {how}"),
         Why::Fresh => "ran: records are ignored (--fresh)".to_owned(),
     };
+    format!("{name}: {why}")
+}
+
+fn name(row: &CaseRow) -> String {
     let words = [&row.study, &row.point, &row.solver, &row.control];
-    let name: Vec<&str> = words.into_iter().map(String::as_str).filter(|w| !w.is_empty()).collect();
-    format!("{} {:e} {}: {why}", name.join(" "), row.value, row.corners)
+    let words: Vec<&str> =
+        words.into_iter().map(String::as_str).filter(|w| !w.is_empty()).collect();
+    format!("{} {:e} {}", words.join(" "), row.value, row.corners)
 }
 
 /// The first half of `--check`: the committed tables must give the committed report, byte for byte.

@@ -1,6 +1,7 @@
 //! The curves of figures: the exact answer's loops, and the steps that solvers took.
 
 use crate::{
+    fits,
     plan::{Plan, Point, Study, control_name, solver_names},
     quantities::View,
     run::Finished,
@@ -37,12 +38,10 @@ pub(crate) fn curves(
     for figure in &plan.figures {
         for panel in &figure.panel {
             panels.push(axes(figure, panel));
-            let drawn = match panel.show.as_str() {
-                "step-time" => steps(plan, figure, panel, finished)?,
-                "rest-swings" => settling(plan, figure, panel)?,
-                _ if of_plant(plan, figure, panel)? => plants(plan, figure, panel)?,
-                "steady-force" => steady(plan, figure, panel)?,
-                _ => forces(plan, figure, panel)?,
+            let fit = plan.fits.iter().find(|f| Some(&f.name) == figure.study.as_ref());
+            let drawn = match (panel.show.as_str(), fit) {
+                (_, Some(fit)) => fits::series(fit, panel)?,
+                (show, None) => of_study(plan, (figure, panel), show, finished)?,
             };
             for (series, points) in drawn {
                 let row = |(x, y)| CurveRow {
@@ -59,7 +58,23 @@ pub(crate) fn curves(
     Ok((panels, curves))
 }
 
-type Series = Vec<(String, Vec<(f64, f64)>)>;
+fn of_study(
+    plan: &Plan,
+    (figure, panel): (&FigureSpec, &PanelSpec),
+    show: &str,
+    finished: &[Finished],
+) -> Result<Series, String> {
+    match show {
+        "step-time" => steps(plan, figure, panel, finished),
+        "rest-swings" => settling(plan, figure, panel),
+        _ if of_plant(plan, figure, panel)? => plants(plan, figure, panel),
+        "steady-force" => steady(plan, figure, panel),
+        _ => forces(plan, figure, panel),
+    }
+}
+
+/// Curves by their labels.
+pub(crate) type Series = Vec<(String, Vec<(f64, f64)>)>;
 
 fn axes(figure: &FigureSpec, panel: &PanelSpec) -> PanelRow {
     PanelRow {

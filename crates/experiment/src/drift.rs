@@ -52,6 +52,10 @@ const RESULT: Tolerance = Close { relative: 2e-3, absolute: 2e-12 };
 const WORK: Tolerance = Close { relative: 0.05, absolute: 20.0 };
 /// Closed forms.
 const TIGHT: Tolerance = Close { relative: 1e-9, absolute: 1e-12 };
+/// What follows from a minimum that is found to a share of its standard errors.
+const FITTED: Tolerance = Close { relative: 0.02, absolute: 1e-9 };
+/// What is drawn of a simulation with fitted parameters.
+const DRAWN_FITTED: Tolerance = Close { relative: 1e-3, absolute: 1e-3 };
 /// What is drawn of a plant that was solved for: finer than a line is wide.
 const DRAWN: Tolerance = Close { relative: 1e-5, absolute: 1e-5 };
 /// Below this, errors and bounds of errors are rounding.
@@ -75,13 +79,55 @@ pub fn drift(committed: &Summary, found: &Summary) -> Vec<Drift> {
         let keep = |c: &&record::CurveRow| !histories.contains(&c.figure.as_str());
         s.curves.iter().filter(keep).cloned().collect::<Vec<_>>()
     };
-    let solved = solved(found);
+    let (solved, fitted) = (solved(found), fitted(found));
     let curve = |_: &str, row: &Row| {
         let figure = row.get("figure").and_then(Value::as_str).unwrap_or_default();
-        if solved.contains(&figure) { DRAWN } else { TIGHT }
+        match (fitted.contains(&figure), solved.contains(&figure)) {
+            (true, _) => DRAWN_FITTED,
+            (_, true) => DRAWN,
+            _ => TIGHT,
+        }
     };
     compare("curves.csv", (&loops(committed), &loops(found)), curve, &mut moved);
+    compare("fits.csv", (&committed.fits, &found.fits), fit, &mut moved);
+    compare("parameters.csv", (&committed.parameters, &found.parameters), parameter, &mut moved);
+    compare("models.csv", (&committed.models, &found.models), misfit, &mut moved);
+    compare("misfits.csv", (&committed.misfits, &found.misfits), misfit, &mut moved);
     moved
+}
+
+/// The figures that show fits.
+fn fitted(summary: &Summary) -> Vec<&str> {
+    let of_fit = |f: &&record::FigureRow| summary.fits.iter().any(|fit| fit.fit == f.study);
+    summary.figures.iter().filter(of_fit).map(|f| f.figure.as_str()).collect()
+}
+
+fn fit(field: &str, _: &Row) -> Tolerance {
+    match field {
+        "simulations" => WORK,
+        "step_error" => Within(10.0),
+        "variance" | "neighbours" => FITTED,
+        _ => Exact,
+    }
+}
+
+/// A minimum is found to a share of its standard errors, no better, and so are the ends of an interval.
+fn parameter(field: &str, row: &Row) -> Tolerance {
+    let error = row.get("standard_error").and_then(Value::as_f64).unwrap_or(0.0);
+    match field {
+        "found" | "low" | "high" => Close { relative: 0.0, absolute: 0.05 * error },
+        "standard_error" => FITTED,
+        "truth" | "given" => TIGHT,
+        _ => Exact,
+    }
+}
+
+fn misfit(field: &str, _: &Row) -> Tolerance {
+    match field {
+        "trained" | "held_out" | "before" | "after" => FITTED,
+        "noise" => TIGHT,
+        _ => Exact,
+    }
 }
 
 /// The figures that show plants.
@@ -195,8 +241,22 @@ fn fields<T: Serialize>(row: &T) -> Row {
 
 /// What tells a reader which row is meant.
 fn name(row: &Row) -> String {
-    let keys =
-        ["id", "study", "point", "solver", "value", "corners", "figure", "panel", "series", "key"];
+    let keys = [
+        "id",
+        "study",
+        "fit",
+        "parameter",
+        "model",
+        "channel",
+        "point",
+        "solver",
+        "value",
+        "corners",
+        "figure",
+        "panel",
+        "series",
+        "key",
+    ];
     let words = keys.iter().filter_map(|key| row.get(*key)).map(|v| match v {
         Value::String(text) => text.clone(),
         other => other.to_string(),
@@ -221,7 +281,9 @@ fn equal(was: &Value, is: &Value, tolerance: &Tolerance) -> bool {
 #[cfg(test)]
 mod tests {
     use super::drift;
-    use record::{AboutRow, CaseRow, ClaimRow, CurveRow, MeasureRow, OrderRow, Summary};
+    use record::{
+        AboutRow, CaseRow, ClaimRow, CurveRow, MeasureRow, OrderRow, ParameterRow, Summary,
+    };
 
     fn summary(row: CaseRow) -> Summary {
         Summary { cases: vec![row], ..Summary::default() }
@@ -293,6 +355,16 @@ mod tests {
             ..Summary::default()
         };
         assert_eq!(drift(&text("a"), &text("b")).len(), 1);
+    }
+
+    #[test]
+    fn a_fitted_parameter_moves_when_it_moves_by_a_share_of_its_standard_error() {
+        let fitted = |found| Summary {
+            parameters: vec![ParameterRow { found, standard_error: 0.1, ..Default::default() }],
+            ..Summary::default()
+        };
+        let moved = |found| drift(&fitted(1.0), &fitted(found)).len();
+        assert_eq!((moved(1.004), moved(1.006)), (0, 1));
     }
 
     #[test]

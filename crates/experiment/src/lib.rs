@@ -11,6 +11,7 @@ mod compare;
 mod curves;
 mod drift;
 mod error;
+mod fits;
 mod judge;
 mod orders;
 mod own;
@@ -20,14 +21,15 @@ mod run;
 mod solved;
 pub mod spec;
 mod summary;
+mod written;
 
 pub use compare::NEAR_A_KINK;
 pub use drift::{Drift, drift};
 pub use error::ExperimentError;
 pub use judge::four_digits;
 pub use plan::{
-    Answers, Case, Claim, Decision, Exact, Irreproducible, Measure, Plan, Point, Study, Subject,
-    control_name, corners_name,
+    Answers, Case, Claim, Decision, Exact, Fit, Fitted, Irreproducible, Measure, Plan, Point,
+    Study, Subject, control_name, corners_name,
 };
 pub use run::{Finished, Options, Progress, WATCHDOG, Why, run};
 pub use summary::summary;

@@ -1,15 +1,7 @@
 //! An experiment as written: the TOML's keys and nothing more. What is checked is a [`crate::Plan`].
 
-use crate::{
-    ExperimentError,
-    error::{Complaint, one_of},
-};
 use serde::Deserialize;
-use std::{collections::BTreeMap, path::Path};
-use toml::{Spanned, de::DeTable, de::DeValue};
-
-/// The largest TOML that is read [bytes]; an experiment is a page or two.
-const LARGEST: usize = 1 << 20;
+use std::collections::BTreeMap;
 
 /// An experiment as written.
 #[derive(Debug, Clone, Deserialize)]
@@ -26,6 +18,9 @@ pub struct Spec {
     /// The studies.
     #[serde(default)]
     pub study: Vec<StudySpec>,
+    /// The fits to records.
+    #[serde(default)]
+    pub fit: Vec<FitSpec>,
     /// The figures.
     #[serde(default)]
     pub figure: Vec<FigureSpec>,
@@ -88,6 +83,33 @@ pub struct StudySpec {
     /// Cases whose steps are kept for a figure.
     #[serde(default)]
     pub history: Vec<HistorySpec>,
+}
+
+/// One fit: a rig's free parameters from a record. Files are named as seen from the experiment's folder.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FitSpec {
+    /// Its name; panels, measures and checks call it their `study`.
+    pub name: String,
+    /// Its title, for the report.
+    pub title: String,
+    /// What is to be known of it, for the report.
+    #[serde(default)]
+    pub text: String,
+    /// The record.
+    pub record: String,
+    /// The rig file.
+    pub rig: String,
+    /// The truth file of a synthetic record; it is compared with, and never seen by the fit.
+    pub truth: Option<String>,
+    /// The length of a window [s]; found from the record if not given.
+    pub window: Option<f64>,
+    /// The starts beside the nominal one.
+    pub starts: Option<u32>,
+    /// The seed of the starts.
+    pub seed: Option<u32>,
+    /// Whether the other friction models are fitted, too; so if not said.
+    pub models: Option<bool>,
 }
 
 /// A case whose steps are kept for a figure, at every point of the sweep.
@@ -155,6 +177,13 @@ pub struct PanelSpec {
     /// Solvers whose own path is drawn besides, or alone where the study has no exact answer.
     #[serde(default)]
     pub runs: Vec<RunSpec>,
+    /// What is drawn of a fit: `record`, `given` (the nominal parameters, simulated), `fitted`; the record alone
+    /// if not given.
+    #[serde(default)]
+    pub of: Vec<String>,
+    /// Whether a fit's torque is drawn without bias and asymmetry, and its angles about their middle.
+    #[serde(default)]
+    pub centred: bool,
     /// Label of the horizontal axis.
     pub x: String,
     /// Label of the vertical axis.
@@ -263,117 +292,4 @@ pub struct IrreproducibleSpec {
     pub any_status: bool,
     /// The reason, for the report.
     pub why: String,
-}
-
-/// A spec with the text it was read from, so that a complaint finds its line.
-#[derive(Debug)]
-pub(crate) struct Written<'a> {
-    path: &'a Path,
-    text: &'a str,
-    tree: Spanned<DeTable<'a>>,
-    /// The keys.
-    pub(crate) spec: Spec,
-}
-
-impl<'a> Written<'a> {
-    /// Parses `text`, the content of `path`.
-    pub(crate) fn parse(path: &'a Path, text: &'a str) -> Result<Self, ExperimentError> {
-        if text.len() > LARGEST {
-            return Err(at(
-                path,
-                1,
-                Complaint::new(
-                    "the file",
-                    format!("{} bytes", text.len()),
-                    format!("at most {LARGEST} bytes"),
-                ),
-            ));
-        }
-        let tree = DeTable::parse(text).map_err(|e| syntax(path, text, &e))?;
-        let spec = toml::from_str(text).map_err(|e| syntax(path, text, &e))?;
-        Ok(Self { path, text, tree, spec })
-    }
-
-    /// The complaint with its file and line.
-    pub(crate) fn error(&self, complaint: Complaint) -> ExperimentError {
-        at(self.path, self.line(&complaint.key), complaint)
-    }
-
-    /// The line of `key`, as `study[0].model.gamma`, or of the innermost part of it that is written.
-    fn line(&self, key: &str) -> usize {
-        let mut table = Some(self.tree.get_ref());
-        let mut start = 0;
-        for step in key.split('.') {
-            let (name, index) = match step.split_once('[') {
-                Some((name, rest)) => (name, rest.trim_end_matches(']').parse::<usize>().ok()),
-                None => (step, None),
-            };
-            let Some((written, value)) = table.and_then(|t| t.get_key_value(name)) else { break };
-            start = written.span().start;
-            let value = match (value.get_ref(), index) {
-                (DeValue::Array(items), Some(i)) if i < items.len() => {
-                    start = items[i].span().start;
-                    items[i].get_ref()
-                }
-                (other, _) => other,
-            };
-            table = value.as_table();
-        }
-        line_at(self.text, start)
-    }
-}
-
-fn line_at(text: &str, offset: usize) -> usize {
-    1 + text.as_bytes().iter().take(offset).filter(|b| **b == b'\n').count()
-}
-
-fn at(path: &Path, line: usize, complaint: Complaint) -> ExperimentError {
-    let Complaint { key, found, expected } = complaint;
-    ExperimentError::Spec { path: path.to_path_buf(), line, key, found, expected }
-}
-
-/// A parser's error in our words, with the near miss named where it lists what it expected.
-fn syntax(path: &Path, text: &str, error: &toml::de::Error) -> ExperimentError {
-    let span = error.span().unwrap_or(0..0);
-    let line = line_at(text, span.start);
-    let message = error.message().lines().collect::<Vec<_>>().join("; ");
-    if let Some((_, rest)) = message.split_once("unknown field `")
-        && let Some((field, list)) = rest.split_once('`')
-    {
-        let known: Vec<&str> = list.split('`').skip(1).step_by(2).collect();
-        let complaint = Complaint::new(field, "an unknown key", one_of(field, known));
-        return at(path, line, complaint);
-    }
-    let tree = DeTable::parse(text).ok();
-    let key = tree.and_then(|tree| key_at(tree.get_ref(), span.start));
-    let key = key.unwrap_or_else(|| "TOML".to_owned());
-    if let Some(missing) = message.strip_prefix("missing field ") {
-        return at(path, line, Complaint::new(key, "nothing", format!("a key {missing}")));
-    }
-    if let Some((found, expected)) =
-        message.strip_prefix("invalid type: ").and_then(|rest| rest.split_once(", expected "))
-    {
-        return at(path, line, Complaint::new(key, found, expected));
-    }
-    let written = text.get(span).unwrap_or("").lines().next().unwrap_or("");
-    let short: String = written.chars().take(40).collect();
-    let found = if short.is_empty() { message } else { format!("`{short}`: {message}") };
-    at(path, line, Complaint::new(key, found, "TOML that can be read"))
-}
-
-/// The innermost key that stands at `offset` or whose value does, as `study[0].model.gamma`.
-/// A table's own span is that of its header only, so every table is looked into.
-fn key_at(table: &DeTable, offset: usize) -> Option<String> {
-    table.iter().find_map(|(name, value)| {
-        let inside = |value: &DeValue| value.as_table().and_then(|inner| key_at(inner, offset));
-        let items = value.get_ref().as_array().into_iter().flatten().enumerate();
-        let in_item = items.filter_map(|(i, item)| {
-            let inner = inside(item.get_ref()).map(|key| format!("[{i}].{key}"));
-            inner.or_else(|| item.span().contains(&offset).then(|| format!("[{i}]")))
-        });
-        let inner = in_item.last().or_else(|| inside(value.get_ref()).map(|key| format!(".{key}")));
-        let here = name.span().contains(&offset) || value.span().contains(&offset);
-        let tail = inner.or_else(|| here.then(String::new))?;
-        Some(format!("{}{tail}", name.get_ref()))
-    })
 }

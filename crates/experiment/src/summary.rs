@@ -4,10 +4,10 @@ use crate::{
     ExperimentError, Finished, Plan,
     compare::largest_response,
     curves, judge, orders,
-    plan::{Answers, Study, solver_names},
+    plan::{Answers, Fit, Study, solver_names},
     spec::FigureSpec,
 };
-use record::{AboutRow, CaseRow, FigureRow, MeasureRow, StudyRow, Summary};
+use record::{AboutRow, CaseRow, FigureRow, FitRecord, FitRow, MeasureRow, StudyRow, Summary};
 
 /// All tables of the experiment.
 pub fn summary(plan: &Plan, finished: &[Finished]) -> Result<Summary, ExperimentError> {
@@ -24,6 +24,8 @@ pub fn summary(plan: &Plan, finished: &[Finished]) -> Result<Summary, Experiment
     let (panels, curves) = curves::curves(plan, finished)
         .map_err(|why| unanswered(format!("a figure's panel: {why}")))?;
     let studies = plan.studies.iter().map(study_row).collect::<Result<_, _>>();
+    let fits = plan.fits.iter().map(Fit::found).collect::<Result<Vec<_>, _>>();
+    let fits: Vec<FitRecord> = fits.map_err(ExperimentError::Bug)?.into_iter().cloned().collect();
     Ok(Summary {
         name: plan.name.clone(),
         about: about(plan),
@@ -35,7 +37,16 @@ pub fn summary(plan: &Plan, finished: &[Finished]) -> Result<Summary, Experiment
         claims,
         panels,
         curves,
+        fits: fits.iter().map(|f| told(&f.row)).collect(),
+        parameters: fits.iter().flat_map(|f| f.parameters.clone()).collect(),
+        models: fits.iter().flat_map(|f| f.models.clone()).collect(),
+        misfits: fits.iter().flat_map(|f| f.misfits.clone()).collect(),
     })
+}
+
+/// The fit's row, its text as the others' are.
+fn told(row: &FitRow) -> FitRow {
+    FitRow { text: folded(&row.text), ..row.clone() }
 }
 
 fn about(plan: &Plan) -> Vec<AboutRow> {

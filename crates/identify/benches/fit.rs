@@ -128,8 +128,17 @@ fn fitted(rig: &Rig, data: &Data) -> (Found, Vec<f64>) {
     let windows = vec![Window::new(data, 0, data.time.len())];
     // F_S moves as what it is above F_C; all variables begin at 1.
     let x = vec![1.0; free.len()];
-    let problem =
-        Problem { rig, data, free, windows, closed_loop: false, weights, tolerance: TOLERANCE };
+    let problem = Problem {
+        rig,
+        data,
+        free,
+        windows,
+        closed_loop: false,
+        memory: 1.0 / 1e3,
+        counts: Vec::new(),
+        weights,
+        tolerance: TOLERANCE,
+    };
     let found = newton::settle(&problem, search(&problem, (&x, None), None, &TO_THE_END), None);
     let values = (0..found.x.len()).map(|i| problem.value(i, &found.x)).collect();
     (found, values)

@@ -16,3 +16,12 @@ pub mod rig;
 
 pub use recording::{Columns, Recording, RecordingError};
 pub use rig::{Channel, Controller, Effect, Friction, Hold, Rig, RigError, Shaft};
+
+/// Runs `job` on `threads` threads, or on as many as there are processors. The answer is the same.
+pub fn on_threads<T: Send>(threads: Option<usize>, job: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build() {
+        Ok(pool) => pool.install(job),
+        // Without a pool of its own it runs on the common one.
+        Err(_) => job(),
+    }
+}

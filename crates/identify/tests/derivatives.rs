@@ -5,7 +5,7 @@ use identify::{
     fit::binding,
     march::{Drive, Model, Motion, Start, Tolerance, march, replay},
 };
-use num_dual::{DualSVec64, DualStruct};
+use num_dual::DualSVec64;
 
 const PLANTS: [(&str, &str, &[&str]); 4] = [
     (
@@ -55,7 +55,7 @@ fn rig(plant: (&str, &str), friction: (&str, &str)) -> Rig {
         "title = \"t\"\n[plant]\nkind = \"{kind}\"\n{values}\n[friction]\nname = \"{name}\"\n{parameters}\n\
          [channels]\ntime = \"t\"\n{channels}\n"
     );
-    Rig::parse(&text).unwrap()
+    Rig::parse(&text).expect("a value")
 }
 
 /// A drive that lets every friction stick, creep and slide.
@@ -65,18 +65,18 @@ fn drive(time: &[f64]) -> Vec<f64> {
 
 fn moved(rig: &Rig, name: &str, to: f64, time: &[f64], rtol: f64) -> Motion {
     let mut rig = rig.clone();
-    rig.set(name, to).unwrap();
+    rig.set(name, to).expect("a value");
     let model = binding::model::<f64>(&rig, &|_| None);
     let u = drive(time);
     let start = Start { q: 0.05, v: 0.2, z: vec![0.01; model.contact.states()] };
     let tolerance = Tolerance { q: rtol, v: rtol, z: rtol, steps: 50_000_000 };
     let drive = Drive::Recorded { values: &u, hold: Hold::Linear };
-    march(&model, &drive, time, &start, &tolerance).unwrap()
+    march(&model, &drive, time, &start, &tolerance).expect("a value")
 }
 
 /// The derivatives of q at every sample by one parameter.
 fn replayed(rig: &Rig, name: &str, time: &[f64], motion: &Motion) -> Vec<f64> {
-    let value = rig.value(name).unwrap();
+    let value = rig.value(name).expect("a value");
     let model: Model<DualSVec64<2>> =
         binding::model(rig, &|key| (key == name).then(|| DualSVec64::from_re(value).derivative(0)));
     let u = drive(time);
@@ -105,7 +105,7 @@ fn a_replay_gives_the_derivatives_of_the_motion_by_every_parameter() {
         for (name, parameters, keys) in FRICTIONS {
             let rig = rig((kind, values), (name, parameters));
             for key in plant_keys.iter().chain(keys) {
-                let value = rig.value(key).unwrap();
+                let value = rig.value(key).expect("a value");
                 let here = moved(&rig, key, value, &time, rtol);
                 let by = replayed(&rig, key, &time, &here);
                 let step = 1e-4 * value;

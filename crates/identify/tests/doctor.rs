@@ -112,6 +112,10 @@ const FAULTS: &[(&str, &str, &str, &str, Plant)] = &[
     ("axis", "lugre", "quantum", "where the rig file states 1e-7 m", |rig, _| {
         rig.channels.get_mut("position").expect("position").quantum = Some(1e-7);
     }),
+    ("axis", "lugre", "quantum", "is smoother than steps of 1e-4 m", |rig, _| {
+        rig.channels.get_mut("position").expect("position").quantum = Some(1e-4);
+    }),
+    ("axis", "lugre", "rows", "no column of numbers", |_, made| made.columns.clear()),
     ("axis", "lugre", "sign", "its sign is the other way", |_, made| made.scale("velocity", -1.0)),
     ("axis", "lugre", "sign", "takes energy out", |_, made| made.scale("force", -1.0)),
     ("drum", "lugre", "sign", "the wrong way", |_, made| made.swap("force_1", "force_2")),
@@ -341,7 +345,7 @@ fn a_channel_in_another_unit_or_at_the_motor_is_the_same_in_the_recording() {
     let plain = Recording::new(&rig, &|name| made.column(name)).expect("a record");
     let text = rig.write().replace(
         "velocity = \"velocity\"",
-        "velocity = { column = \"velocity\", unit = \"-rpm\", at = \"motor\", quantum = 0.688 }",
+        "velocity = { column = \"velocity\", unit = \"-rpm\", at = \"motor\", quantum = 0.0688 }",
     );
     let motor = Rig::parse(&text).expect("a rig");
     let mut turned = made.clone();
@@ -351,7 +355,7 @@ fn a_channel_in_another_unit_or_at_the_motor_is_the_same_in_the_recording() {
         assert!((a - b).abs() <= 1e-14 + 1e-14 * a.abs(), "{a} rad/s is {b} rad/s");
     }
     assert!(
-        (recording.quantum["velocity"] - 0.01).abs() < 1e-15,
+        (recording.quantum["velocity"] - 1e-3).abs() < 1e-15,
         "the quantum at the drum [rad/s]"
     );
     assert!(look(&motor, &turned).findings.is_empty());

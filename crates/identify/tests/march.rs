@@ -1,128 +1,118 @@
-//! The march against closed forms and against the methods that locate their events.
+//! The march against the located method of `simulation`, which shares no code with it, and a closed form.
 
+use duhem::{Input, MODELS, Parameters, Plant, Rig};
 use identify::{
-    Hold, Rig,
-    fit::binding,
+    Hold,
     march::{Balance, Contact, Drive, Model, Motion, Start, Tolerance, march},
 };
-use simulation::{DrivenPlant, anchors::anchors, plant_reference::solve_located};
+use integrate::{Limits, Outcome};
+use simulation::{Task, adaptive::ADAPTIVE};
 
-/// A mass of 1 kg with nothing else.
-fn mass(contact: Contact<f64>) -> Model<f64> {
-    let balance =
-        Balance { mass: 1.0, gain: 1.0, constant: 0.0, stiffness: 0.0, damping: 0.0, gravity: 0.0 };
-    Model { balance, contact, sigma_2: 0.0, offset: 0.0 }
+fn times(samples: u32, rate: f64) -> Vec<f64> {
+    (0..=samples).map(|i| f64::from(i) / rate).collect()
 }
 
-fn times(step: f64, count: u32) -> Vec<f64> {
-    (0..=count).map(|i| step * f64::from(i)).collect()
+fn driven(plant: &Plant, contact: Contact<f64>, sigma_2: f64) -> Model<f64> {
+    let balance = Balance {
+        mass: plant.mass,
+        gain: plant.gain,
+        constant: plant.offset,
+        stiffness: plant.stiffness,
+        damping: 0.0,
+        gravity: 0.0,
+    };
+    Model { balance, contact, sigma_2, offset: 0.0 }
 }
 
-fn run(model: &Model<f64>, u: &[f64], time: &[f64], [q, v]: [f64; 2], rtol: f64) -> Motion {
-    let start = Start { q, v, z: vec![0.0; model.contact.states()] };
-    let tolerance = Tolerance { q: rtol, v: rtol, z: rtol, steps: 10_000_000 };
-    march(model, &Drive::Recorded { values: u, hold: Hold::Linear }, time, &start, &tolerance)
-        .unwrap()
+fn go(model: &Model<f64>, values: &[f64], time: &[f64], (q, tight): (f64, f64)) -> Motion {
+    let drive = Drive::Recorded { values, hold: Hold::Linear };
+    let start = Start { q, v: 0.0, z: vec![0.0; model.contact.states()] };
+    let tolerance = Tolerance { q: 0.3 * tight, v: 0.2 * tight, z: tight, steps: 10_000_000 };
+    march(model, &drive, time, &start, &tolerance).expect("a motion")
 }
 
-#[test]
-fn a_thrown_mass_stops_by_coulomb_friction_where_its_energy_is_used_up() {
-    // ½v² = F_C q and v = F_C t: it stops between two samples, at 0.5 m after 1.0 s, and stays.
-    let model = mass(Contact::Coulomb { f_c: 1.0 });
-    let time = times(0.03, 60);
-    let motion = run(&model, &vec![0.0; 61], &time, [0.0, 1.0], 1e-6);
-    for (i, t) in time.iter().enumerate() {
-        let t = t.min(1.0);
-        let off = (motion.q[i] - (t - 0.5 * t * t)).abs();
-        assert!(off < 1e-12, "at {t} s it is {off:.1e} m off");
-    }
-    assert_eq!(motion.v[60], 0.0);
+/// The displacement by the located method at rtol 1e-9, the same straight lines between the samples.
+fn located(
+    name: &str,
+    parameters: &Parameters,
+    plant: Plant,
+    (u, time): (&[f64], &[f64]),
+) -> Vec<f64> {
+    // After the span it returns to its first value, as a period has to.
+    let after = |all: &[f64], last: f64| [all, &[last]].concat();
+    let input = Input::polyline(after(time, time[time.len() - 1] + 1.0), after(u, u[0]));
+    let task = Task {
+        model: MODELS.iter().find(|m| m.name == name).expect("a model of the list"),
+        parameters: parameters.clone(),
+        plant: Some(plant),
+        input: input.expect("an input"),
+        y0: vec![0.0; 3],
+        span: (time[0], time[time.len() - 1]),
+    };
+    let own = ADAPTIVE.iter().find(|own| own.name == "radau-located").expect("in the list");
+    let mut states = vec![0.0; 3 * time.len()];
+    let limits = Limits::default();
+    let delivered = (own.build)(&task).expect("it holds").deliver(1e-9, &limits, time, &mut states);
+    assert_eq!(delivered.outcome, Outcome::Solved, "{name}");
+    states.iter().step_by(3).copied().collect()
 }
 
-#[test]
-fn a_mass_under_a_rising_force_breaks_away_and_turns_when_the_force_does() {
-    // Force t [N] against F_C = 1 N: rest until 1 s, then q = (t − 1)³/6.
-    let model = mass(Contact::Coulomb { f_c: 1.0 });
-    let time = times(0.07, 40);
-    let motion = run(&model, &time, &time, [0.0, 0.0], 1e-9);
-    for (i, t) in time.iter().enumerate() {
-        let right = (t - 1.0).max(0.0).powi(3) / 6.0;
-        let off = (motion.q[i] - right).abs();
-        assert!(off < 1e-7, "at {t} s it is {off:.1e} m off");
-    }
-    // Thrown at 1 m/s against −2 N it turns at 1/3 s, 1/6 m away, and comes back with 1 m/s².
-    let motion = run(&model, &vec![-2.0; 41], &time, [0.0, 1.0], 1e-3);
-    for (i, t) in time.iter().enumerate() {
-        let back = t - 1.0 / 3.0;
-        let right = if back < 0.0 { t - 1.5 * t * t } else { 1.0 / 6.0 - 0.5 * back * back };
-        let off = (motion.q[i] - right).abs();
-        assert!(off < 1e-9, "at {t} s it is {off:.1e} m off");
-    }
-}
-
-#[test]
-fn a_mass_on_a_spring_with_one_slip_element_swings_as_two_parabolas_of_energy_say() {
-    // Inside the deadband it is a spring of k + k_s: q = v/ω sin ωt.
-    let mut model = mass(Contact::MaxwellSlip { k: vec![3.0], delta: vec![1.0] });
-    model.balance.stiffness = 1.0;
-    let time = times(0.01, 300);
-    let motion = run(&model, &vec![0.0; 301], &time, [0.0, 1.0], 1e-8);
-    for (i, t) in time.iter().enumerate() {
-        let off = (motion.q[i] - 0.5 * (2.0 * t).sin()).abs();
-        assert!(off < 1e-6, "at {t} s it is {off:.1e} m off");
-    }
-    // With a velocity of 4 m/s it yields at q = 1 m: there ½v² = ½16 − ½4, and it turns where the rest is used
-    // up by the spring and the yielding element, ½v² = 3(q − 1) + ½(q² − 1): q = −3 + √28.
-    let motion = run(&model, &vec![0.0; 301], &time, [0.0, 4.0], 1e-8);
-    let furthest = motion.q.iter().copied().fold(0.0, f64::max);
-    let right = -3.0 + 28.0_f64.sqrt();
-    // A sample is at most 5 ms from the turn, where the acceleration is k_s q + 3 N.
-    let seen = 0.5 * (right + 3.0) * 0.005_f64.powi(2);
-    let off = right - furthest;
-    assert!(off > -1e-6 && off < seen + 1e-6, "it turns {off:.1e} m before {right} m");
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let size = b.iter().fold(0.0, |m: f64, q| m.max(q.abs()));
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / size
 }
 
 #[test]
-fn a_pendulum_without_friction_keeps_its_energy() {
-    let text = "title = \"t\"\n[plant]\nkind = \"pendulum\"\ninertia = 0.02\nmass = 0.4\nlength = 0.2\n\
-                torque_constant = 1e-9\nresistance = 1.0\n[friction]\nname = \"none\"\n\
-                [channels]\ntime = \"t\"\nvoltage = \"u\"\nangle = \"q\"\n";
-    let model = binding::model::<f64>(&Rig::parse(text).unwrap(), &|_| None);
-    let time = times(0.01, 2000);
-    let energy = |q: f64, v: f64| 0.5 * 0.02 * v * v - 0.4 * 9.81 * 0.2 * q.cos();
-    let motion = run(&model, &vec![0.0; 2001], &time, [2.5, 0.0], 1e-9);
-    let first = energy(2.5, 0.0);
-    for (q, v) in motion.q.iter().zip(&motion.v) {
-        let off = (energy(*q, *v) - first).abs();
-        assert!(off < 1e-5, "{off:.1e} J of {first:.2} J are lost at {q} rad");
+fn the_drum_moves_as_by_the_located_method_and_closer_with_shorter_steps() {
+    let plant = Rig::PAPER.plant();
+    let time = times(2000, 100.0);
+    let u: Vec<f64> = time.iter().map(|t| 0.05 * (0.2 * std::f64::consts::PI * t).sin()).collect();
+    let sigma_1 = 1000.0_f64.sqrt();
+    let keys = [
+        ("f_c", 0.6),
+        ("f_s", 1.0),
+        ("v_s", 1e-3),
+        ("sigma_0", 1e3),
+        ("sigma_1", sigma_1),
+        ("sigma_2", 1.3),
+    ];
+    let right = located("lugre", &keys.into_iter().collect(), plant, (&u, &time));
+    let contact = Contact::LuGre { f_c: 0.6, f_s: 1.0, v_s: 1e-3, sigma_0: 1e3, sigma_1 };
+    let model = driven(&plant, contact, 1.3);
+    // The tolerance of a fit, and a hundred times as close.
+    for (tight, most) in [(1e-5, 1e-5), (1e-7, 1e-7)] {
+        let error = apart(&go(&model, &u, &time, (0.0, tight)).q, &right);
+        assert!(error < most, "LuGre at {tight:e}: off by {error:e} of the largest angle");
     }
 }
 
-/// The largest difference in q from the method that locates its events, of the largest q.
-fn off(problem: &str, rtol: f64) -> f64 {
-    let anchor = anchors().unwrap().into_iter().find(|a| a.problem == problem).unwrap();
-    let task = &anchor.task;
-    let plant = task.plant.unwrap();
-    let motion = DrivenPlant::new(task.friction().unwrap(), plant, task.input.clone(), task.span);
-    let right = solve_located(&motion, &task.y0, 1e-11).path;
-    let text = "title = \"t\"\n[plant]\nkind = \"drum\"\ninertia = 3e-4\nradius = 0.0254\nk_1 = 2.0\n\
-                k_2 = 2.0\nf_10 = 0.01\nf_20 = 0.01\nmotor_constant = 16.5\ngear_ratio = 68.8\n\
-                [friction]\nname = \"lugre\"\nf_c = 0.6\nf_s = 1.0\nv_s = 1e-3\nsigma_0 = 1e3\n\
-                sigma_1 = 31.622776601683793\nsigma_2 = 1.3\n\
-                [channels]\ntime = \"t\"\ncurrent = \"u\"\nangle = \"q\"\n";
-    let model = binding::model::<f64>(&Rig::parse(text).unwrap(), &|_| None);
-    let time = times(0.005, 10_000);
-    let u: Vec<f64> = time.iter().map(|t| task.input.u(*t)).collect();
-    let ours = run(&model, &u, &time, [0.0, 0.0], rtol);
-    let largest = time.iter().map(|t| right.q(*t).abs()).fold(0.0, f64::max);
-    let apart = time.iter().zip(&ours.q).map(|(t, q)| (right.q(*t) - q).abs());
-    apart.fold(0.0, f64::max) / largest
+#[test]
+fn a_mass_with_dahl_friction_moves_as_by_the_located_method() {
+    let plant = Plant::mass_spring(1.0, 1.5);
+    let time = times(1500, 50.0);
+    let u: Vec<f64> = time.iter().map(|t| 5.0 * (0.7 * t).sin()).collect();
+    let keys = [("f_c", 0.75), ("sigma", 75.0), ("gamma", 1.0)];
+    let right = located("dahl", &keys.into_iter().collect(), plant, (&u, &time));
+    let contact = Contact::Dahl { f_c: 0.75, sigma: 75.0, gamma: 1.0 };
+    let error = apart(&go(&driven(&plant, contact, 0.0), &u, &time, (0.0, 1e-7)).q, &right);
+    assert!(error < 1e-5, "off by {error:e} of the largest displacement");
 }
 
 #[test]
-fn the_rig_with_lugre_moves_as_the_method_that_locates_its_events_says() {
-    // The current goes straight from sample to sample, (ωh)²/8 = 1.2e-6 off the sine in the middle.
-    let (coarse, fine) = (off("P6", 1e-5), off("P6", 1e-8));
-    assert!(coarse < 2e-3, "q is {coarse:.1e} of its largest value off at 1e-5");
-    assert!(fine < 2e-5, "q is {fine:.1e} of its largest value off at 1e-8");
+fn a_mass_with_coulomb_friction_loses_two_f_c_over_k_each_half_swing_and_stops() {
+    // From q₀ at rest the turning points are q₀ − 2nF_C/k in size, π√(m/k) apart, until k|q| < F_C.
+    let (mass, stiffness, f_c, q_0) = (2.0, 50.0, 3.0, 0.5_f64);
+    let half = std::f64::consts::PI * f64::sqrt(mass / stiffness);
+    let time: Vec<f64> = (0..=8).map(|n| f64::from(n) * half).collect();
+    let u = vec![0.0; time.len()];
+    let model = driven(&Plant::mass_spring(mass, stiffness), Contact::Coulomb { f_c }, 0.0);
+    let motion = go(&model, &u, &time, (q_0, 1e-8));
+    let (mut q, mut sign) = (q_0, 1.0);
+    for (n, found) in motion.q.iter().enumerate() {
+        assert!((found - sign * q).abs() < 1e-6, "turn {n}: {found} m for {} m", sign * q);
+        if stiffness * q > f_c {
+            (q, sign) = (q - 2.0 * f_c / stiffness, -sign);
+        }
+    }
+    assert_eq!(motion.v.last(), Some(&0.0), "it sticks exactly");
 }

@@ -4,7 +4,8 @@
 //! A row here is text, numbers and units; what they mean is the business of those who write and read them.
 //!
 //! Read first: [`CaseRow`] (one cell of model × input × solver × control), [`Summary`] (all tables of one
-//! experiment, what the report is rendered from), [`Store`] (finished cases on disk, under their content's key).
+//! experiment, what the report is rendered from), [`Store`] (finished cases on disk, under their content's key);
+//! and for records of drives [`Sheet`].
 
 mod error;
 mod file;
@@ -17,13 +18,14 @@ mod table;
 pub use error::RecordError;
 pub use file::write_whole;
 pub use rows::{
-    AboutRow, CaseRow, ClaimRow, CurveRow, FigureRow, MeasureRow, OrderRow, PanelRow, StudyRow,
+    AboutRow, CaseRow, ClaimRow, CurveRow, FigureRow, FitRow, MeasureRow, MisfitRow, ModelRow,
+    OrderRow, PanelRow, ParameterRow, StudyRow,
 };
 pub use sheet::{
     CELLS, COLUMNS, Cells, ROWS, Sheet, SheetColumn, SheetError, Skipped, read_csv, read_matlab,
     read_parquet, read_sheet, write_sheet_csv, write_sheet_parquet,
 };
-pub use store::{CaseRecord, Found, History, Key, Store, sha256};
+pub use store::{CaseRecord, FitRecord, Found, History, Key, Store, sha256};
 pub use summary::Summary;
 pub use table::{Cell, Table};
 

@@ -244,3 +244,95 @@ table! {
         y: f64 = "y",
     }
 }
+
+table! {
+    /// One fit of a rig's free parameters to a record.
+    pub struct FitRow {
+        /// Its name in the experiment.
+        fit: String = "fit",
+        /// Its title.
+        title: String = "title",
+        /// What is to be known of it, for the report.
+        text: String = "text",
+        /// The record, as the experiment names it.
+        record: String = "record",
+        /// How many samples it has.
+        samples: u64 = "samples",
+        /// The rig, as its file titles it.
+        rig: String = "rig",
+        /// How the record was simulated, in words.
+        way: String = "way",
+        /// In how many windows.
+        windows: u64 = "windows",
+        /// How the search ended, in words.
+        end: String = "end",
+        /// How many simulations of the whole record the search took.
+        simulations: u64 = "simulations",
+        /// The variance of the residuals in units of the noise, 1 where model and noise are right.
+        variance: f64 = "variance [1]",
+        /// The correlation of neighbouring residuals.
+        neighbours: f64 = "correlation of neighbours [1]",
+        /// The largest change of a parameter, in standard errors, when the steps are ten times more accurate.
+        step_error: f64 = "error of the steps [standard errors]",
+    }
+}
+
+table! {
+    /// One fitted parameter.
+    pub struct ParameterRow {
+        /// The fit.
+        fit: String = "fit",
+        /// The parameter.
+        parameter: String = "parameter",
+        /// Its unit; `1` for none.
+        unit: String = "unit",
+        /// Its nominal value, as the rig file has it.
+        given: f64 = "given",
+        /// Its fitted value.
+        found: f64 = "found",
+        /// Its standard error.
+        standard_error: f64 = "standard error",
+        /// The lower end of its 95 % interval by profile likelihood; none where no bound was found.
+        low: Option<f64> = "low",
+        /// The upper end.
+        high: Option<f64> = "high",
+        /// Whether the record identifies it: the interval is closed on both sides.
+        identified: bool = "identified",
+        /// The truth of a synthetic record; none of a measured one.
+        truth: Option<f64> = "truth",
+    }
+}
+
+table! {
+    /// One friction model, fitted to half of the blocks of a record and judged on the others.
+    pub struct ModelRow {
+        /// The fit.
+        fit: String = "fit",
+        /// The friction model.
+        model: String = "model",
+        /// How many parameters were free.
+        free: u64 = "free",
+        /// Root mean square of the residuals on the blocks it was fitted to, of the channels' noise.
+        trained: f64 = "trained error [1]",
+        /// The same on the blocks held out.
+        held_out: f64 = "held-out error [1]",
+    }
+}
+
+table! {
+    /// The misfit of one channel.
+    pub struct MisfitRow {
+        /// The fit.
+        fit: String = "fit",
+        /// The channel.
+        channel: String = "channel",
+        /// Its unit.
+        unit: String = "unit",
+        /// Root mean square of the residual with the nominal parameters.
+        before: f64 = "before",
+        /// With the fitted ones.
+        after: f64 = "after",
+        /// The noise that the channel itself shows.
+        noise: f64 = "noise",
+    }
+}

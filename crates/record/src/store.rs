@@ -1,7 +1,7 @@
 //! Finished cases on disk, each under the hash of everything that determines it.
 
-use crate::{CaseRow, FORMAT, RecordError, write_whole};
-use serde::{Deserialize, Serialize};
+use crate::{CaseRow, FORMAT, FitRow, MisfitRow, ModelRow, ParameterRow, RecordError, write_whole};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
 use std::{fmt::Write, fs, io::ErrorKind, path::PathBuf};
 
@@ -27,6 +27,19 @@ pub struct CaseRecord {
     pub history: Option<History>,
 }
 
+/// What is kept of a finished fit.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct FitRecord {
+    /// Its row in the table.
+    pub row: FitRow,
+    /// Its parameters, without the truth.
+    pub parameters: Vec<ParameterRow>,
+    /// The friction models against one another, the best first.
+    pub models: Vec<ModelRow>,
+    /// The misfit of every channel.
+    pub misfits: Vec<MisfitRow>,
+}
+
 /// The SHA-256 of everything that determines a case, in hexadecimal.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Key(String);
@@ -49,9 +62,9 @@ impl Key {
 
 /// What the store holds under a key.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Found {
+pub enum Found<T = CaseRecord> {
     /// A whole record.
-    Record(Box<CaseRecord>),
+    Record(Box<T>),
     /// Nothing.
     Nothing,
     /// A file that is not what was written: why.
@@ -75,7 +88,7 @@ impl Store {
     }
 
     /// Reads the record under `key`; a damaged one is found by its checksum.
-    pub fn read(&self, key: &Key) -> Result<Found, RecordError> {
+    pub fn read<T: DeserializeOwned>(&self, key: &Key) -> Result<Found<T>, RecordError> {
         let path = self.path(key);
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
@@ -89,7 +102,7 @@ impl Store {
     }
 
     /// Writes the record under `key`, whole.
-    pub fn write(&self, key: &Key, record: &CaseRecord) -> Result<(), RecordError> {
+    pub fn write<T: Serialize>(&self, key: &Key, record: &T) -> Result<(), RecordError> {
         let path = self.path(key);
         let body = serde_json::to_string(record).map_err(|e| RecordError::Table {
             path: path.clone(),
@@ -105,7 +118,7 @@ fn seal(body: &str) -> String {
     format!("duhem record {FORMAT} sha256 {}", sha256(body.as_bytes()))
 }
 
-fn open(bytes: &[u8]) -> Result<CaseRecord, String> {
+fn open<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
     let text = std::str::from_utf8(bytes).map_err(|e| format!("not text: {e}"))?;
     let (first, rest) = text.split_once('\n').ok_or("it ends in its first line")?;
     let body = rest.strip_suffix('\n').ok_or("its last line is not ended")?;

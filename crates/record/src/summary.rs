@@ -1,34 +1,45 @@
 //! All tables of one experiment: what is committed, and what the report is rendered from.
 
 use crate::{
-    AboutRow, CaseRow, ClaimRow, CurveRow, FigureRow, MeasureRow, OrderRow, PanelRow, RecordError,
-    StudyRow, Table,
+    AboutRow, CaseRow, ClaimRow, CurveRow, FigureRow, FitRow, MeasureRow, MisfitRow, ModelRow,
+    OrderRow, PanelRow, ParameterRow, RecordError, StudyRow, Table,
 };
 use std::path::Path;
 
 macro_rules! summary {
-    ($($(#[$doc:meta])* $field:ident: $row:ty = $file:literal,)*) => {
+    ($($(#[$doc:meta])* $field:ident: $row:ty = $file:literal,)*
+     ; $($(#[$more_doc:meta])* $more:ident: $more_row:ty = $more_file:literal,)*) => {
         /// All tables of one experiment.
         #[derive(Debug, Clone, PartialEq, Default)]
         pub struct Summary {
             /// The experiment's name.
             pub name: String,
             $($(#[$doc])* pub $field: Vec<$row>,)*
+            $($(#[$more_doc])* pub $more: Vec<$more_row>,)*
         }
 
         impl Summary {
             /// The tables' file names.
-            pub const FILES: &'static [&'static str] = &[$($file,)*];
+            pub const FILES: &'static [&'static str] = &[$($file,)* $($more_file,)*];
 
-            /// The files of the summary: name and content.
+            /// The files of the summary: name and content. What only some experiments have is left out where
+            /// there is none of it.
             pub fn files(&self) -> Vec<(&'static str, Vec<u8>)> {
-                vec![$(($file, <$row>::to_csv(&self.$field)),)*]
+                let mut files = vec![$(($file, <$row>::to_csv(&self.$field)),)*];
+                $(if !self.$more.is_empty() {
+                    files.push(($more_file, <$more_row>::to_csv(&self.$more)));
+                })*
+                files
             }
 
             /// Reads the tables from a folder `…/NAME`.
             pub fn read(folder: &Path) -> Result<Self, RecordError> {
                 let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                Ok(Self { name, $($field: <$row>::read(&folder.join($file))?,)* })
+                Ok(Self {
+                    name,
+                    $($field: <$row>::read(&folder.join($file))?,)*
+                    $($more: if_there::<$more_row>(&folder.join($more_file))?,)*
+                })
             }
         }
     };
@@ -53,6 +64,20 @@ summary! {
     panels: PanelRow = "panels.csv",
     /// The curves themselves.
     curves: CurveRow = "curves.csv",
+    ;
+    /// The fits to records.
+    fits: FitRow = "fits.csv",
+    /// Their parameters.
+    parameters: ParameterRow = "parameters.csv",
+    /// The friction models against one another.
+    models: ModelRow = "models.csv",
+    /// The misfit of every channel.
+    misfits: MisfitRow = "misfits.csv",
+}
+
+/// The rows of a table that only some experiments have; none where there is no file.
+fn if_there<T: Table>(path: &Path) -> Result<Vec<T>, RecordError> {
+    if path.is_file() { T::read(path) } else { Ok(Vec::new()) }
 }
 
 impl Summary {

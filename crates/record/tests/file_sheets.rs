@@ -57,7 +57,7 @@ fn what_is_no_column_in_a_matlab_file_is_named_with_what_it_is() {
         ("sp", "a sparse array"),
         ("e", "an empty array"),
         ("cube", "of other than two dimensions"),
-        ("fs", "of 1 rows where the longest have 5"),
+        ("fs", "of 1 rows where the record has 5"),
     ] {
         let text = sheet.column(name).unwrap_err().to_string();
         assert!(text.contains(&format!("`{name}` was not read")) && text.contains(what), "{text}");
@@ -65,17 +65,26 @@ fn what_is_no_column_in_a_matlab_file_is_named_with_what_it_is() {
     assert_eq!(sheet.skipped.len(), 8);
 }
 
-/// A MATLAB 5 file in the byte order of a machine that writes the highest byte first.
+/// A MATLAB 5 file in the byte order of a machine that writes the highest byte first, with one variable.
 fn big_endian(class: u8, kind: u32, data: &[u8], rows: u32) -> Vec<u8> {
     let mut bytes = b"MATLAB 5.0 MAT-file".to_vec();
     bytes.resize(124, b' ');
     bytes.extend(b"\x01\x00MI");
+    bytes.extend(variable(b"F", class, (kind, data), rows));
+    bytes
+}
+
+/// A variable as such a file holds it.
+fn variable(name: &[u8], class: u8, (kind, data): (u32, &[u8]), rows: u32) -> Vec<u8> {
+    let mut bytes = Vec::new();
     let mut body = Vec::new();
     for word in [6, 8, u32::from(class), 0, 5, 8, rows, 1] {
         body.extend(u32::to_be_bytes(word));
     }
     // A name of up to four letters stands in its tag.
-    body.extend(b"\x00\x01\x00\x01F\0\0\0");
+    body.extend([0, u8::try_from(name.len()).unwrap(), 0, 1]);
+    body.extend(name);
+    body.resize(body.len().next_multiple_of(8), 0);
     body.extend(kind.to_be_bytes());
     body.extend(u32::try_from(data.len()).unwrap().to_be_bytes());
     body.extend(data);
@@ -111,6 +120,22 @@ fn a_matlab_file_of_the_other_byte_order_is_read_in_every_type_of_number() {
             13 = u64
         );
     }
+}
+
+#[test]
+fn constants_a_long_table_and_what_has_no_name_do_not_take_the_records_place() {
+    let ten = [0; 10];
+    let mut bytes = big_endian(9, 2, &ten, 10);
+    bytes.extend(variable(b"t", 9, (2, &ten), 10));
+    for name in [b"a", b"b", b"c", b"d", b"e"] {
+        bytes.extend(variable(name, 9, (2, &[7]), 1));
+    }
+    bytes.extend(variable(b"cal", 9, (2, &[1; 15]), 15));
+    bytes.extend(variable(b"", 9, (2, &[1; 5000]), 5000));
+    let sheet = read_matlab(&bytes[..]).unwrap();
+    assert_eq!((sheet.rows(), sheet.columns.len(), sheet.skipped.len()), (10, 2, 7));
+    let text = sheet.column("cal").unwrap_err().to_string();
+    assert!(text.contains("15 rows where the record has 10"), "{text}");
 }
 
 #[test]

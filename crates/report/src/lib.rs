@@ -20,6 +20,8 @@ mod claims;
 mod error;
 mod escape;
 mod figures;
+mod fit_page;
+mod fits;
 mod grid;
 mod html;
 mod markdown;
@@ -30,6 +32,7 @@ mod select;
 
 pub use error::ReportError;
 pub use figures::{Datum, Drawing, FIGURES, FigureKind};
+pub use fit_page::{FitCurve, FitFigure, FitPage, FitPanel, FitPart, FitRole, fit_page};
 pub use plot::Panel;
 
 use across::Across;

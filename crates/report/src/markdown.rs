@@ -6,11 +6,12 @@ use crate::claims::{
     HELD, OPEN, Part, decided, few_held, in_short, of_part, ours, sign, tally, undecided,
 };
 use crate::escape::{code_path, markdown, markdown_attribute, sentences};
+use crate::fits;
 use crate::grid;
 use crate::number;
 use crate::prose;
 use crate::select::distinct;
-use record::ClaimRow;
+use record::{ClaimRow, FitRow};
 
 /// The front.
 pub(crate) fn front(chapters: &[Chapter], across: Option<&Across>) -> String {
@@ -166,6 +167,7 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
         }
         chapter.figures_of(&study.study).into_iter().for_each(|f| out.push_str(&picture(f)));
     }
+    summary.fits.iter().for_each(|fit| a_fit(&mut out, chapter, fit));
     chapter.figures_of("").into_iter().for_each(|figure| out.push_str(&picture(figure)));
     let more = chapter.more_figures();
     if !more.is_empty() {
@@ -187,6 +189,18 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
         put!(out, "- {}: {value}\n", markdown(&row.key));
     }
     out
+}
+
+/// A fit: its text, how it went, its tables and its figures.
+fn a_fit(out: &mut String, chapter: &Chapter, fit: &FitRow) {
+    put!(out, "\n## {}\n{}\n", prose::markdown(fits::heading(fit)), paragraphs(&fit.text));
+    for (key, text) in fits::told(fit) {
+        put!(out, "- {key}: {}\n", prose::markdown(&text));
+    }
+    for (title, reads, grid) in fits::tables(chapter.summary, &fit.fit) {
+        put!(out, "\n### {title}\n{}\n{}", paragraphs(reads), grid.markdown());
+    }
+    chapter.figures_of(&fit.fit).into_iter().for_each(|figure| out.push_str(&picture(figure)));
 }
 
 fn errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {

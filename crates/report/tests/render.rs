@@ -123,7 +123,7 @@ fn hostile_text_stays_text() {
     let readme = find(&outputs, "hostile/README.md");
     for line in readme.lines().filter(|line| line.starts_with('|')) {
         let bars = line.matches('|').count() - line.matches("\\|").count();
-        assert!([4, 5, 3].contains(&bars), "a table of {bars} bars: {line}");
+        assert!((3..=6).contains(&bars), "a table of {bars} bars: {line}");
         assert_eq!(line.matches('`').count(), line.matches("\\`").count(), "{line}");
     }
     assert!(HOSTILE.contains("<script"), "the test itself has lost its teeth");

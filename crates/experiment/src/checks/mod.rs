@@ -2,6 +2,7 @@
 
 mod dahl;
 mod energy;
+mod fit;
 mod lugre;
 mod maxwell_slip;
 mod plant;
@@ -87,4 +88,5 @@ pub const CHECKS: &[Check] = &[
     table1::DUHEM_TYPE,
     table1::RATE,
     table1::CONTINUITY,
+    fit::BEST_MODEL,
 ];

@@ -1,6 +1,6 @@
 //! The figures of an experiment, checked.
 
-use super::{Study, panel};
+use super::{Fit, Study, panel};
 use crate::{
     error::{Complaint, one_of},
     spec::{FigureSpec, PanelSpec, Spec},
@@ -21,10 +21,22 @@ pub(crate) const SHOWS: [&str; 10] = [
     "step-time",
 ];
 
+/// What a panel may show of a fit: besides what a plant does its input as it was recorded, its load cells, and
+/// the speed of its motor.
+pub(crate) const SHOWS_OF_FITS: [&str; 7] = [
+    "displacement-time",
+    "velocity-time",
+    "motor-speed-time",
+    "input-time",
+    "drive-time",
+    "displacement-drive",
+    "loads-time",
+];
+
 /// The figures, their studies, values and panels looked up.
 pub(super) fn check(
     spec: &Spec,
-    studies: &[Study],
+    (studies, fits): (&[Study], &[Fit]),
     kinds: &[&str],
 ) -> Result<Vec<FigureSpec>, Complaint> {
     let study = |name: &String, key: String| {
@@ -42,6 +54,12 @@ pub(super) fn check(
         if !kinds.contains(&figure.kind.as_str()) {
             let expected = one_of(&figure.kind, kinds.iter().copied());
             return Err(Complaint::new(key("kind"), format!("`{}`", figure.kind), expected));
+        }
+        if let Some(fit) = fits.iter().find(|f| Some(&f.name) == figure.study.as_ref()) {
+            for (p, panel) in figure.panel.iter().enumerate() {
+                of_fit(panel, fit).map_err(|c| c.under(&format!("figure[{i}].panel[{p}]")))?;
+            }
+            continue;
         }
         if let Some(name) = &figure.study {
             study(name, key("study"))?
@@ -75,6 +93,51 @@ pub(super) fn check(
     Ok(spec.figure.clone())
 }
 
+/// What a fit can show: its own record and simulations, and nothing of a study.
+fn of_fit(panel: &PanelSpec, fit: &Fit) -> Result<(), Complaint> {
+    if !SHOWS_OF_FITS.contains(&panel.show.as_str()) {
+        let expected = one_of(&panel.show, SHOWS_OF_FITS);
+        return Err(Complaint::new("show", format!("`{}`", panel.show), expected));
+    }
+    let has = |channel: &str| fit.recording.channels.contains_key(channel);
+    let there = match panel.show.as_str() {
+        "loads-time" => has("force_1") && has("force_2"),
+        "velocity-time" => has("velocity"),
+        "motor-speed-time" => has("velocity") && fit.rig.value("gear_ratio").is_some(),
+        _ => true,
+    };
+    if !there {
+        let found = format!("`{}` of a record without it", panel.show);
+        return Err(Complaint::new("show", found, "a channel of the record"));
+    }
+    let known = ["record", "given", "fitted"];
+    if let Some((i, of)) = panel.of.iter().enumerate().find(|(_, of)| !known.contains(&of.as_str()))
+    {
+        return Err(Complaint::new(format!("of[{i}]"), format!("`{of}`"), one_of(of, known)));
+    }
+    let foreign = [
+        ("study", panel.study.is_some()),
+        ("also", !panel.also.is_empty()),
+        ("runs", !panel.runs.is_empty()),
+        ("from", !panel.from.is_empty()),
+    ];
+    match foreign.iter().find(|(_, given)| *given) {
+        Some((key, _)) => Err(Complaint::new(*key, "a value", "none in a panel of a fit")),
+        None => between(panel, true),
+    }
+}
+
+/// Whether a panel's stretch of time, if it has one, is one.
+fn between(panel: &PanelSpec, timed: bool) -> Result<(), Complaint> {
+    match panel.between {
+        Some([from, to]) if !(timed && from < to) => {
+            let expected = "a time and a later one [s], in a panel of a plant or a fit";
+            Err(Complaint::new("between", format!("[{from}, {to}]"), expected))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Whether what a panel shows is there to be shown: of a plant its histories, else forces.
 fn shown(panel: &PanelSpec, figure: &FigureSpec, studies: &[Study]) -> Result<(), Complaint> {
     let name = panel.study.as_ref().or(figure.study.as_ref());
@@ -95,11 +158,8 @@ fn shown(panel: &PanelSpec, figure: &FigureSpec, studies: &[Study]) -> Result<()
             return Err(Complaint::new(key, "a list", "none in a panel of a plant"));
         }
     }
-    if let Some([from, to]) = panel.between
-        && !(plant && from < to)
-    {
-        let expected = "a time and a later one [s], in a panel of a plant";
-        return Err(Complaint::new("between", format!("[{from}, {to}]"), expected));
+    if panel.centred || !panel.of.is_empty() {
+        return Err(Complaint::new("of", "a value", "none but in a panel of a fit"));
     }
-    Ok(())
+    between(panel, plant)
 }

@@ -1,6 +1,6 @@
 //! What is measured and judged, as checked.
 
-use super::{Point, Study, input, methods, study};
+use super::{Fit, Point, Study, input, judged_fit as fit, methods, study};
 use crate::{
     checks::{CHECKS, Check},
     error::{Complaint, one_of},
@@ -14,11 +14,13 @@ use std::collections::{BTreeMap, BTreeSet};
 /// What a quantity or a check is taken of: a study at some points of its sweep.
 #[derive(Debug, Clone)]
 pub struct Subject {
-    /// The study's index.
+    /// The study's index, or the fit's.
     pub study: usize,
+    /// Whether it is a fit.
+    pub of_fit: bool,
     /// The points' indices; all of them if none was named.
     pub points: Vec<usize>,
-    /// What a check is told to expect; empty if it needs no telling.
+    /// What a check is told to expect, and what of a fit is meant; empty if it needs no telling.
     pub expect: String,
     /// The numbers that a quantity or a check takes besides, by their keys.
     pub arguments: BTreeMap<String, Vec<f64>>,
@@ -102,8 +104,8 @@ pub(super) struct Judged {
     pub(super) irreproducible: Vec<Irreproducible>,
 }
 
-pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint> {
-    let measures = measures(spec, studies)?;
+pub(super) fn check(spec: &Spec, studies: &[Study], fits: &[Fit]) -> Result<Judged, Complaint> {
+    let measures = measures(spec, studies, fits)?;
     let mut claims = Vec::new();
     for (i, written) in spec.claim.iter().enumerate() {
         for id in crate::judge::placeholders(&written.why) {
@@ -115,7 +117,7 @@ pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint>
             let key = format!("claim[{i}].figure");
             return Err(Complaint::new(key, format!("`{}`", written.figure), expected));
         }
-        let claim = claim(written, &measures, studies);
+        let claim = claim(written, &measures, (studies, fits));
         claims.push(claim.map_err(|c| c.under(&format!("claim[{i}]")))?);
     }
     let mut seen = BTreeSet::new();
@@ -132,13 +134,17 @@ pub(super) fn check(spec: &Spec, studies: &[Study]) -> Result<Judged, Complaint>
 }
 
 /// The quantities to measure, each looked up for its study's model.
-fn measures(spec: &Spec, studies: &[Study]) -> Result<Vec<Measure>, Complaint> {
+fn measures(spec: &Spec, studies: &[Study], fits: &[Fit]) -> Result<Vec<Measure>, Complaint> {
     let mut measures: Vec<Measure> = Vec::new();
     for (i, written) in spec.measure.iter().enumerate() {
         let under = |c: Complaint| c.under(&format!("measure[{i}]"));
         if !super::plain(&written.id) || measures.iter().any(|m| m.id == written.id) {
             let found = format!("`{}`", written.id);
             return Err(under(Complaint::new("id", found, "a plain id of its own")));
+        }
+        if let Some(fit) = fits.iter().position(|f| f.name == written.study) {
+            measures.push(fit::measure(written, (fit, &fits[fit])).map_err(under)?);
+            continue;
         }
         let mut what = written.what.clone();
         what.insert("study".to_owned(), written.study.clone().into());
@@ -160,7 +166,7 @@ fn measures(spec: &Spec, studies: &[Study]) -> Result<Vec<Measure>, Complaint> {
                 "one: name a value of each swept parameter",
             )));
         }
-        fits(quantity.model, &studies[subject.study]).map_err(|c| under(c.under("what")))?;
+        made_for(quantity.model, &studies[subject.study]).map_err(|c| under(c.under("what")))?;
         let unit = quantity.unit_in(&studies[subject.study]);
         if written.unit != unit {
             let expected = format!("`{unit}`, the unit of {}", quantity.name);
@@ -216,10 +222,14 @@ fn subject(
     let chosen = study.selected(&select)?;
     let place = |label: &str| study.points.iter().position(|p| p.label == label);
     let points = chosen.iter().filter_map(|point| place(&point.label)).collect();
-    Ok(Subject { study: index, points, expect: expect.to_owned(), arguments })
+    Ok(Subject { study: index, of_fit: false, points, expect: expect.to_owned(), arguments })
 }
 
-fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result<Claim, Complaint> {
+fn claim(
+    written: &ClaimSpec,
+    measures: &[Measure],
+    (studies, fits): (&[Study], &[Fit]),
+) -> Result<Claim, Complaint> {
     let ids = || measures.iter().map(|m| m.id.as_str());
     let find = |key: &str, id: &str| {
         measures
@@ -230,18 +240,7 @@ fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result
     let decision = match (&written.measure, &written.check) {
         (Some(id), None) => Decision::Measure(find("measure", id)?),
         (None, Some(table)) => {
-            let name = input::text(table, "name").map_err(|c| c.under("check"))?;
-            let known = CHECKS.iter().map(|c| c.name);
-            let study = input::text(table, "study").map_err(|c| c.under("check"))?;
-            let model =
-                studies[find_study(study, studies).map_err(|c| c.under("check"))?].model.name;
-            let check = named(CHECKS, |c| (c.name, c.model), (name, model)).ok_or_else(|| {
-                Complaint::new("check.name", format!("`{name}`"), one_of(name, known))
-            })?;
-            let subject =
-                subject(table, ("name", check.takes), studies).map_err(|c| c.under("check"))?;
-            told(check, &subject, &studies[subject.study]).map_err(|c| c.under("check"))?;
-            Decision::Check(check, subject)
+            decided(table, studies, fits).map_err(|complaint| complaint.under("check"))?
         }
         (None, None) if written.qualitative || written.under_specified.is_some() => {
             Decision::Nothing
@@ -261,6 +260,23 @@ fn claim(written: &ClaimSpec, measures: &[Measure], studies: &[Study]) -> Result
     Ok(Claim { written: written.clone(), printed: written.printed.clone(), decision })
 }
 
+/// The check that a claim names, told what it needs.
+fn decided(table: &toml::Table, studies: &[Study], fits: &[Fit]) -> Result<Decision, Complaint> {
+    let study = input::text(table, "study")?;
+    if let Some(fit) = fits.iter().position(|f| f.name == study) {
+        return fit::check(table, fit);
+    }
+    let name = input::text(table, "name")?;
+    let model = studies[find_study(study, studies)?].model.name;
+    let check = named(CHECKS, |c| (c.name, c.model), (name, model)).ok_or_else(|| {
+        let known = CHECKS.iter().map(|c| c.name);
+        Complaint::new("name", format!("`{name}`"), one_of(name, known))
+    })?;
+    let subject = subject(table, ("name", check.takes), studies)?;
+    told(check, &subject, &studies[subject.study])?;
+    Ok(Decision::Check(check, subject))
+}
+
 /// The entry of this name made for this model, or else the first of this name: one name may stand for
 /// the same thing in several models.
 fn named<T>(
@@ -269,12 +285,12 @@ fn named<T>(
     (name, model): (&str, &str),
 ) -> Option<&'static T> {
     let called = || list.iter().filter(|entry| names(entry).0 == name);
-    let fits = |entry: &&T| ["", model].contains(&names(entry).1);
-    called().find(fits).or_else(|| called().next())
+    let made = |entry: &&T| ["", model].contains(&names(entry).1);
+    called().find(made).or_else(|| called().next())
 }
 
 /// Whether a quantity or a check is made for the study's model.
-fn fits(model: &str, study: &Study) -> Result<(), Complaint> {
+fn made_for(model: &str, study: &Study) -> Result<(), Complaint> {
     if model.is_empty() || model == study.model.name {
         return Ok(());
     }
@@ -284,7 +300,7 @@ fn fits(model: &str, study: &Study) -> Result<(), Complaint> {
 
 /// Whether a check is told what it needs, no more and no less.
 fn told(check: &Check, subject: &Subject, study: &Study) -> Result<(), Complaint> {
-    fits(check.model, study)?;
+    made_for(check.model, study)?;
     if !check.many && subject.points.len() != 1 {
         let found = format!("{} points of the sweep", subject.points.len());
         return Err(Complaint::new("", found, "one: name a value of each swept parameter"));

@@ -2,14 +2,17 @@
 
 mod answer;
 mod figures;
+mod fit;
 mod input;
 mod judged;
+mod judged_fit;
 mod methods;
 mod panel;
 mod study;
 mod sweep;
 
 pub use answer::{Answers, Exact};
+pub use fit::{Fit, Fitted};
 pub use judged::{Claim, Decision, Irreproducible, Measure, Subject};
 pub use methods::control_name;
 pub use study::Study;
@@ -19,7 +22,8 @@ pub(crate) use sweep::angular;
 use crate::{
     ExperimentError,
     error::Complaint,
-    spec::{FigureSpec, Spec, Written},
+    spec::{FigureSpec, Spec},
+    written::Written,
 };
 use integrate::{Control, Corners, Solver};
 use record::RecordError;
@@ -46,6 +50,8 @@ pub struct Plan {
     pub text: String,
     /// The studies.
     pub studies: Vec<Study>,
+    /// The fits to records.
+    pub fits: Vec<Fit>,
     /// Every case, in the order of the tables.
     pub cases: Vec<Case>,
     /// The figures, their studies and solvers resolved.
@@ -114,11 +120,13 @@ impl Plan {
         kinds: &[&str],
     ) -> Result<Self, ExperimentError> {
         let written = Written::parse(path, text)?;
-        check(name, text, &written.spec, kinds).map_err(|complaint| written.error(complaint))
+        let folder = path.parent().unwrap_or(Path::new(""));
+        check((name, folder), text, &written.spec, kinds)
+            .map_err(|complaint| written.error(complaint))
     }
 
     /// The same plan with two steps and tolerances in every study: the first, and the one that a figure
-    /// shows or else the second.
+    /// shows or else the second; and with the fits' standard errors alone, no profiles.
     #[must_use]
     pub fn quick(mut self) -> Self {
         for study in &mut self.studies {
@@ -131,19 +139,28 @@ impl Plan {
                 values.truncate(2);
             }
         }
+        for fit in &mut self.fits {
+            fit.options.profiles = false;
+        }
         self.cases = cases(&self.studies);
         self
     }
 }
 
-fn check(name: &str, text: &str, spec: &Spec, kinds: &[&str]) -> Result<Plan, Complaint> {
+fn check(
+    (name, folder): (&str, &Path),
+    text: &str,
+    spec: &Spec,
+    kinds: &[&str],
+) -> Result<Plan, Complaint> {
     unique("study", spec.study.iter().map(|s| &s.name))?;
+    unique("fit", spec.fit.iter().map(|s| &s.name))?;
     unique("figure", spec.figure.iter().map(|s| &s.name))?;
     for (key, text) in [("title", &spec.title), ("paper", &spec.paper), ("text", &spec.text)] {
         readable(text).map_err(|c| c.under(key))?;
     }
-    if spec.study.is_empty() {
-        return Err(Complaint::new("study", "none", "at least one [[study]]"));
+    if spec.study.is_empty() && spec.fit.is_empty() {
+        return Err(Complaint::new("study", "none", "at least one [[study]] or [[fit]]"));
     }
     let budget = spec.budget.unwrap_or(BUDGET);
     if !(1.0..=1e12).contains(&budget) {
@@ -161,15 +178,17 @@ fn check(name: &str, text: &str, spec: &Spec, kinds: &[&str]) -> Result<Plan, Co
         let found = format!("{} cases", cases.len());
         return Err(Complaint::new("study", found, format!("at most {MOST_CASES}")));
     }
-    let judged = judged::check(spec, &studies)?;
+    let fits = fits(spec, folder)?;
+    let judged = judged::check(spec, &studies, &fits)?;
     let plan = Plan {
         name: name.to_owned(),
         spec_hash: record::sha256(text.as_bytes()),
         title: spec.title.clone(),
         paper: spec.paper.clone(),
         text: spec.text.clone(),
-        figures: figures::check(spec, &studies, kinds)?,
+        figures: figures::check(spec, (&studies, &fits), kinds)?,
         studies,
+        fits,
         cases,
         measures: judged.measures,
         claims: judged.claims,
@@ -179,10 +198,24 @@ fn check(name: &str, text: &str, spec: &Spec, kinds: &[&str]) -> Result<Plan, Co
     Ok(plan)
 }
 
+/// The fits, each of a name that no study has: figures, measures and checks name one or the other.
+fn fits(spec: &Spec, folder: &Path) -> Result<Vec<Fit>, Complaint> {
+    let mut fits = Vec::new();
+    for (i, written) in spec.fit.iter().enumerate() {
+        let key = format!("fit[{i}]");
+        if spec.study.iter().any(|s| s.name == written.name) {
+            let found = format!("`{}`, the name of a study", written.name);
+            return Err(Complaint::new(format!("{key}.name"), found, "a name of its own"));
+        }
+        fits.push(Fit::check(written, folder).map_err(|c| c.under(&key))?);
+    }
+    Ok(fits)
+}
+
 /// What has no answer, as the travel to a force that is never reached, is found before anything runs.
 fn answerable(plan: &Plan) -> Result<(), Complaint> {
     // What has to be solved for is not: that takes its time, and a run tells.
-    let quick = |subject: &Subject| plan.studies[subject.study].plant.is_none();
+    let quick = |s: &Subject| !s.of_fit && plan.studies[s.study].plant.is_none();
     for (i, measure) in plan.measures.iter().enumerate().filter(|(_, m)| quick(&m.subject)) {
         (measure.quantity.measure)(plan, &measure.subject).map_err(|e| {
             Complaint::new(format!("measure[{i}].what"), e, "a quantity this model has")

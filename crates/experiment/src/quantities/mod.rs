@@ -1,6 +1,7 @@
 //! What can be measured: one entry for each quantity, with the two ways it is obtained.
 
 mod dahl;
+pub(crate) mod fit;
 mod input;
 pub(crate) mod lugre;
 pub(crate) mod maxwell_slip;
@@ -12,6 +13,9 @@ mod rig;
 pub(crate) use path::{RINGING, View};
 
 use crate::plan::{Plan, Study, Subject, angular};
+
+/// The model of quantities and checks that are made for fits.
+pub(crate) const OF_A_FIT: &str = "fit";
 
 /// A measured value with an honest bound of its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +61,11 @@ pub struct Quantity {
 impl Quantity {
     /// Its unit in a study.
     pub fn unit_in(&self, study: &Study) -> &'static str {
-        let turning = study.plant.is_some_and(|plant| plant.q_unit == "rad");
+        self.unit_of(study.plant.is_some_and(|plant| plant.q_unit == "rad"))
+    }
+
+    /// Its unit where the plant turns, or slides.
+    pub(crate) fn unit_of(&self, turning: bool) -> &'static str {
         if turning { angular(self.unit) } else { self.unit }
     }
 }
@@ -129,6 +137,14 @@ pub const QUANTITIES: &[Quantity] = &[
     maxwell_slip::FIRST_PERIOD_WORK,
     maxwell_slip::LAG,
     maxwell_slip::AS_PRINTED,
+    fit::FITTED,
+    fit::SPRING_SLOPE,
+    fit::DRIVE_BIAS,
+    fit::DRIVE_HALF_SPAN,
+    fit::LOOP_HEIGHT,
+    fit::LOOP_MISFIT,
+    fit::HELD_OUT_ERROR,
+    fit::INTERVALS_WITH_TRUTH,
 ];
 
 #[cfg(test)]

@@ -31,8 +31,8 @@ pub(super) fn examine(series: &Series, rig: bool, findings: &mut Findings) -> Op
         constant(series, rig, least, findings);
         return Some(facts);
     }
-    if let (Some(found), Some(stated)) = (step, series.stated) {
-        steps(series, found, stated, findings);
+    if let Some(stated) = series.stated {
+        steps(series, step, stated, findings);
     }
     if series.measured {
         saturation(series, &facts, findings);
@@ -53,21 +53,26 @@ fn constant(series: &Series, rig: bool, value: f64, findings: &mut Findings) {
 }
 
 /// The step in the samples against the one that the rig file states.
-fn steps(series: &Series, found: f64, stated: f64, findings: &mut Findings) {
-    // Finer steps of written digits are no contradiction: the record may have been filtered or converted.
-    if found > 1.05 * stated {
-        let unit = series.unit;
+fn steps(series: &Series, found: Option<f64>, stated: f64, findings: &mut Findings) {
+    let unit = series.unit;
+    let noise = noise(&series.values);
+    if let Some(found) = found.filter(|found| *found > 1.05 * stated) {
         let text = format!(
             "moves in steps of {} {unit} where the rig file states {} {unit}",
             n(found),
             n(stated)
         );
-        findings.problem(
-            "quantum",
-            &series.name,
-            text,
-            "see the unit, the gear and the encoder's count",
+        let remedy = "see the unit, the gear and the encoder's count";
+        findings.problem("quantum", &series.name, text, remedy);
+    } else if found.is_none_or(|found| found < 0.5 * stated) && noise < 0.1 * stated {
+        // Rounding to the stated step would leave stated/√12 = 0.29 of it.
+        let text = format!(
+            "is smoother than steps of {} {unit}, which the rig file states, would leave it (noise {} {unit})",
+            n(stated),
+            n(noise)
         );
+        let remedy = "it was filtered or interpolated before it was written; its delay is then not the encoder's";
+        findings.note("quantum", &series.name, text, remedy);
     }
 }
 

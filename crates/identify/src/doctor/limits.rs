@@ -247,17 +247,17 @@ impl Limits<'_> {
         let (force, unit) = (self.drive_force(), self.track.kind.force_unit);
         let part = inertia * fastest;
         let noise = self.track.drive_noise * self.gain();
-        let speed_unit = self.track.kind.velocity_unit;
+        let rate = if self.track.kind.turns() { "rad/s²" } else { "m/s²" };
         if part < (0.01 * force).max(3.0 * noise) || resolution > fastest {
             let because = format!(
-                "accelerations reach {} {speed_unit}²: {} {unit} of the drive's {} {unit} (noise {} {unit})",
+                "accelerations reach {} {rate}: {} {unit} of the drive's {} {unit} (noise {} {unit})",
                 n(fastest),
                 n(part),
                 n(force),
                 n(noise)
             );
             let next = format!(
-                "record quick turns, at {} {speed_unit} in a second or faster",
+                "record quick turns, accelerating at {} {rate} or more",
                 n((0.1 * force).max(10.0 * noise) / inertia)
             );
             self.cannot(&[key], &because, &next);

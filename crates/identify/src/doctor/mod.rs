@@ -7,14 +7,16 @@ mod sampling;
 mod series;
 mod signs;
 
-pub(crate) use series::median_step;
+pub(crate) use series::{median_step, noise};
 
 use crate::recording::{Columns, FEWEST_ROWS, quantum_at_drum, to_si, usable};
 use crate::rig::{Kind, Rig};
+use serde::Serialize;
 use series::n;
 
 /// How much a finding matters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// Worth knowing.
     Note,
@@ -23,7 +25,7 @@ pub enum Severity {
 }
 
 /// Something that was found, and what to do about it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Finding {
     /// How much it matters.
     pub severity: Severity,
@@ -65,7 +67,7 @@ pub const FINDINGS: &[&str] = &[
 ];
 
 /// All that was found in a record.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Examination {
     /// The clock, where there is one.
     pub sampling: Option<Sampling>,
@@ -78,7 +80,7 @@ pub struct Examination {
 }
 
 /// The record's clock.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Sampling {
     /// Its column; text of the file, not escaped.
     pub column: String,
@@ -95,7 +97,7 @@ pub struct Sampling {
 }
 
 /// What a channel shows of its instrument, in SI units at the drum.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Facts {
     /// The channel, or the column where there is no rig; text of the file, not escaped.
     pub name: String,
@@ -116,7 +118,7 @@ pub struct Facts {
 }
 
 /// The motion of the record, in SI units at the drum.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Motion {
     /// How often it turns.
     pub reversals: usize,
@@ -281,7 +283,10 @@ fn short(all: &mut [Series], findings: &mut Findings) {
     for series in all.iter_mut() {
         series.values.truncate(rows);
     }
-    if rows < FEWEST_ROWS {
+    if all.is_empty() {
+        let text = "the record has no column of numbers that is asked for".to_owned();
+        findings.problem("rows", "", text, "see the names of its columns and what stands in them");
+    } else if rows < FEWEST_ROWS {
         let text = format!("the record has {rows} rows, too few to tell anything");
         let remedy = format!("record at least {FEWEST_ROWS} rows, better some thousands");
         findings.problem("rows", "", text, &remedy);

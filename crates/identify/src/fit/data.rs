@@ -1,6 +1,6 @@
 //! A record as the fit needs it: what drives the plant, what was seen, and how noisy that is.
 
-use crate::{Hold, Recording, Rig, rig::Kind};
+use crate::{Hold, Recording, Rig, doctor::noise, rig::Kind};
 
 /// What was seen of one quantity, and its noise.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,21 +25,6 @@ impl Seen {
         let noise = noise(&values).max(quantum / 12.0_f64.sqrt()).max(1e-9 * span);
         Self { name: name.to_owned(), values, noise, span }
     }
-}
-
-/// The standard deviation of white noise on a smooth curve, from the median size of its third differences.
-///
-/// var Δ³ = 20 var. The median does not mind a few jumps; a curve that bends within three samples does count.
-pub fn noise(values: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> =
-        values.windows(4).map(|w| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs()).collect();
-    if sizes.is_empty() {
-        return 0.0;
-    }
-    let middle = sizes.len() / 2;
-    let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
-    // The median size of a normal variable is 0.6745 of its standard deviation.
-    *median / (0.674_489_750_196_082 * 20.0_f64.sqrt())
 }
 
 /// A record of a driven plant, or of an imposed motion.

@@ -4,6 +4,7 @@ use super::{
     newton::Local,
     problem::Problem,
     search::{Found, Patience, search},
+    window::START,
 };
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -16,7 +17,7 @@ pub(super) const NORMAL: f64 = 1.959_963_984_540_054;
 
 /// The spread of the fit's variables.
 #[derive(Debug, Clone)]
-pub struct Spread {
+pub(super) struct Spread {
     /// The residual variance s², 1 where model and noise are right [1].
     pub variance: f64,
     /// Covariance of the fit's variables with white residuals, s² (JᵀJ)⁻¹.
@@ -33,17 +34,18 @@ pub(super) fn spread(problem: &Problem<'_>, found: &Found, local: &Local) -> Spr
     let n = found.x.len();
     let samples: usize = found.pieces.iter().map(|p| p.residuals.len()).sum::<usize>()
         + problem.loads(&found.x).0.len();
-    let unknown = n + if problem.data.force.is_some() { 0 } else { 2 * problem.windows.len() };
+    let unknown = n + if problem.data.force.is_some() { 0 } else { START * problem.windows.len() };
     let variance = found.misfit / (samples.saturating_sub(unknown)).max(1) as f64;
     let inverse = inverse(&local.gauss);
     let neighbours = neighbours(problem, found);
     let mut inflation = vec![1.0; n];
     // Below this the correlation is what white residuals show by chance.
     if neighbours > 3.0 / (samples as f64).sqrt() {
-        let robust = &inverse * scores(problem, found, local) * &inverse;
+        let (scores, few) = scores(found, local);
+        let robust = &inverse * scores * &inverse;
         for (i, grows) in inflation.iter_mut().enumerate() {
             let plain = variance * inverse[(i, i)];
-            *grows = (robust[(i, i)] / plain).sqrt().max(1.0);
+            *grows = (few * (robust[(i, i)] / plain).sqrt()).max(1.0);
         }
     }
     Spread { variance, covariance: inverse * variance, inflation, neighbours }
@@ -78,47 +80,81 @@ fn neighbours(problem: &Problem<'_>, found: &Found) -> f64 {
     if square > 0.0 { product / square } else { 0.0 }
 }
 
-/// Σ g gᵀ over stretches of samples, g the part of the half gradient of one stretch: what stands for JᵀJ where
-/// residuals of one stretch are alike. Stretches grow with the cube root of the number of samples.
-fn scores(problem: &Problem<'_>, found: &Found, local: &Local) -> DMatrix<f64> {
+/// Σ g gᵀ over stretches of the record, g the part of the half gradient of one stretch: what stands for JᵀJ where
+/// residuals of one stretch are alike; and what a standard error from so few stretches is to be multiplied by.
+///
+/// A window is a stretch; of few windows there are [`STRETCHES`] stretches in all.
+fn scores(found: &Found, local: &Local) -> (DMatrix<f64>, f64) {
     let n = found.x.len();
-    let channels = problem.channels();
-    let samples: usize = problem.windows.iter().map(super::window::Window::len).sum();
-    let stretch = 4 * channels * (samples as f64).cbrt().ceil().max(1.0).min(1e6) as usize;
-    let mut sum = DMatrix::zeros(n, n);
+    let rows: usize = found.pieces.iter().map(|p| p.residuals.len()).sum();
+    let long = if found.pieces.len() >= STRETCHES / 2 { rows } else { rows.div_ceil(STRETCHES) };
+    let (mut sum, mut count) = (DMatrix::zeros(n, n), 0);
     for (piece, jacobian) in found.pieces.iter().zip(&local.jacobians) {
-        let rows = piece.residuals.len();
         let mut first = 0;
-        while first < rows {
-            let end = (first + stretch).min(rows);
-            let part = jacobian.rows(first, end - first);
-            let g = part.transpose()
-                * nalgebra::DVector::from_column_slice(&piece.residuals[first..end]);
+        while first < piece.residuals.len() {
+            let end = (first + long).min(piece.residuals.len());
+            let residuals = nalgebra::DVector::from_column_slice(&piece.residuals[first..end]);
+            let g = jacobian.rows(first, end - first).transpose() * residuals;
             sum += &g * g.transpose();
-            first = end;
+            (first, count) = (end, count + 1);
         }
     }
-    sum
+    // The quantile of Student's distribution against the normal one, to first order in 1/ν.
+    let free = f64::from((count - 1).max(1));
+    let student = 1.0 + (NORMAL * NORMAL + 1.0) / (4.0 * free);
+    (sum, student * ((free + 1.0) / free).sqrt())
 }
+
+/// Into how many stretches a record of few windows is cut.
+const STRETCHES: usize = 24;
 
 /// The interval of one variable in which the misfit, with all others refitted, stays within the 95 % quantile;
 /// none where no bound was found.
-pub type Interval = [Option<f64>; 2];
+pub(super) type Interval = [Option<f64>; 2];
 
 /// The steps a bound may take, and how far it may go [in the fit's variable].
-const TRIES: usize = 7;
+const TRIES: usize = 6;
 const FURTHEST: f64 = 9.0;
 
-/// The profile intervals of all variables around the minimum.
-pub(super) fn profiles(problem: &Problem<'_>, found: &Found, spread: &Spread) -> Vec<Interval> {
-    (0..found.x.len())
+/// A misfit so much lower [residual variances] is another minimum.
+const LOWER: f64 = 0.5;
+
+/// The profile intervals of all variables around the minimum, and a lower minimum if a profile came upon one: then
+/// the intervals are worth nothing.
+pub(super) fn profiles(
+    problem: &Problem<'_>,
+    found: &Found,
+    spread: &Spread,
+) -> (Vec<Interval>, Option<Found>) {
+    let sides: Vec<[Side; 2]> = (0..found.x.len())
         .into_par_iter()
         .map(|i| {
             let limit = CHI_SQUARED * spread.variance * spread.inflation[i].powi(2);
-            let side = |sign: f64| bound(problem, found, spread, (i, sign, limit));
-            [side(-1.0), side(1.0)]
+            [-1.0, 1.0].map(|sign| bound(problem, found, spread, (i, sign, limit)))
         })
-        .collect()
+        .collect();
+    let intervals = sides.iter().map(|sides| {
+        [0, 1].map(|side| match &sides[side] {
+            Side::At(x) => Some(*x),
+            Side::Nowhere | Side::Lower(_) => None,
+        })
+    });
+    let intervals = intervals.collect();
+    let lower = sides.into_iter().flatten().filter_map(|side| match side {
+        Side::Lower(found) => Some(*found),
+        Side::At(_) | Side::Nowhere => None,
+    });
+    (intervals, lower.min_by(|a, b| a.misfit.total_cmp(&b.misfit)))
+}
+
+/// What was found in one direction.
+enum Side {
+    /// A bound, in the fit's variable.
+    At(f64),
+    /// No bound.
+    Nowhere,
+    /// A lower misfit.
+    Lower(Box<Found>),
 }
 
 /// How far variable `i` goes in the direction `sign` before the misfit has grown by `limit`.
@@ -127,7 +163,7 @@ fn bound(
     found: &Found,
     spread: &Spread,
     (i, sign, limit): (usize, f64, f64),
-) -> Option<f64> {
+) -> Side {
     let c = &spread.covariance;
     let error = c[(i, i)].sqrt() * spread.inflation[i];
     let (mut x, mut pieces) = (found.x.clone(), found.pieces.clone());
@@ -141,16 +177,19 @@ fn bound(
             *x += (moved * c[(j, i)] / c[(i, i)]).clamp(-1.0, 1.0);
         }
         there[i] = found.x[i] + sign * away;
-        let patience = Patience { misfit: 0.01 * limit, simulations: 8 };
+        let patience = Patience { misfit: 0.005 * limit, simulations: 24 };
         let mut near = search(problem, (&there, Some(&pieces)), Some(i), &patience);
         if near.misfit - found.misfit > 1.1 * limit {
             // The windows' starts may have gone astray; from where they were seen they may not.
             let other = search(problem, (&there, None), Some(i), &patience);
             near = if other.misfit < near.misfit { other } else { near };
         }
+        if near.misfit < found.misfit - LOWER * spread.variance {
+            return Side::Lower(Box::new(near));
+        }
         let root = ((near.misfit - found.misfit) / limit).max(0.0).sqrt();
         if (root - 1.0).abs() < 0.05 {
-            return Some(found.x[i] + sign * away / root);
+            return Side::At(found.x[i] + sign * away / root);
         }
         if root < 1.0 {
             (inside, inside_root) = (away, root);
@@ -164,9 +203,9 @@ fn bound(
                 let share = (1.0 - inside_root) / (far_root - inside_root);
                 inside + (far - inside) * share.clamp(0.05, 0.95)
             }
-            None if inside >= FURTHEST => return None,
+            None if inside >= FURTHEST => return Side::Nowhere,
             None => (away / root.max(0.3)).min(3.0 * away).min(FURTHEST),
         };
     }
-    outside.map(|_| found.x[i] + sign * away)
+    outside.map_or(Side::Nowhere, |_| Side::At(found.x[i] + sign * away))
 }

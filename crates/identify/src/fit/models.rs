@@ -1,18 +1,22 @@
 //! The friction models against one another, on blocks that were not fitted.
 
 use super::{
-    Data, Options, binding, blocks, problem::Problem, search::End, starts, window::Window,
+    Data, Options, binding, blocks,
+    problem::{Problem, Weights},
+    search::End,
+    starts,
+    window::Window,
 };
 use crate::Rig;
 use duhem::Parameter;
 use rayon::prelude::*;
 
-/// A friction model, fitted to every second block and judged on the others.
+/// A friction model, fitted to half of the blocks and judged on the others.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {
     /// The friction model; Maxwell-slip with the number of its elements.
     pub name: String,
-    /// The root mean square of the residuals on the blocks not fitted, of the channels' noise [1].
+    /// The root mean square of the residuals on the blocks not fitted, of the channels' weights [1].
     pub held_out_error: f64,
     /// The same on the blocks it was fitted to.
     pub trained_error: f64,
@@ -31,7 +35,7 @@ pub fn candidates(rig: &Rig) -> Vec<(String, Rig)> {
     let viscous = binding::value(rig, "sigma_2").unwrap_or(0.0);
     let with = |name: &str, parameters: Vec<(&str, Parameter)>, sigma_2: f64, free: &[&str]| {
         let mut rig = rig.clone();
-        rig.friction.name = name.to_owned();
+        name.clone_into(&mut rig.friction.name);
         rig.friction.parameters = parameters.into_iter().collect();
         rig.friction.sigma_2 = sigma_2;
         let ours = ["f_c", "f_s", "v_s", "sigma", "gamma", "sigma_0", "sigma_1", "sigma_2"];
@@ -116,17 +120,21 @@ fn elements(count: usize, force: f64, stiffness: f64) -> (Vec<f64>, Vec<f64>) {
     (vec![stiffness / n; count], delta)
 }
 
-/// Every model fitted to every second block of the record and judged on the others, the best first; of
-/// Maxwell-slip only the number of elements that is best.
-pub(super) fn compare(rig: &Rig, data: &Data, options: &Options) -> Vec<Candidate> {
+/// Every model fitted to half of the blocks of the record and judged on the others, the best first; of
+/// Maxwell-slip only the number of elements that is best. All are weighed alike, by `weights`.
+pub(super) fn compare(
+    rig: &Rig,
+    data: &Data,
+    options: &Options,
+    weights: Weights,
+) -> Vec<Candidate> {
     let windows = blocks::blocks(data, options.window);
-    let (train, judge) = blocks::split(&windows);
-    if judge.is_empty() {
+    if windows.len() < 2 {
         return Vec::new();
     }
     let mut all: Vec<Candidate> = candidates(rig)
         .into_par_iter()
-        .filter_map(|(name, rig)| judged(name, rig, data, (&train, &judge)))
+        .filter_map(|(name, rig)| judged(name, &rig, data, (&windows, weights)))
         .collect();
     all.sort_by(|a, b| a.held_out_error.total_cmp(&b.held_out_error));
     let mut seen = false;
@@ -134,34 +142,47 @@ pub(super) fn compare(rig: &Rig, data: &Data, options: &Options) -> Vec<Candidat
     all
 }
 
+/// A model trained on half of the windows and judged on the others. In closed loop, and where the motion is
+/// imposed, the record is simulated in one run, and the samples of the other windows do not count.
 fn judged(
     name: String,
-    rig: Rig,
+    rig: &Rig,
     data: &Data,
-    (train, judge): (&[Window], &[Window]),
+    (windows, weights): (&[Window], Weights),
 ) -> Option<Candidate> {
-    let base = super::problem(&rig, data).ok()?;
-    let problem = Problem { windows: train.to_vec(), closed_loop: false, ..base.clone() };
-    let options = Options { starts: 2, ..Options::default() };
+    let base = Problem { weights, ..super::problem(rig, data).ok()? };
+    let (train, judge) = blocks::split(windows);
+    let only = |some: &[Window]| {
+        if base.closed_loop || data.force.is_some() {
+            let mut counts = vec![false; data.time.len()];
+            for window in some {
+                counts[window.first..window.end].fill(true);
+            }
+            Problem { counts, ..base.clone() }
+        } else {
+            Problem { windows: some.to_vec(), ..base.clone() }
+        }
+    };
+    let problem = only(&train);
+    let options = Options { starts: 1, ..Options::default() };
     let found = starts::best(&problem, &options, None);
     if found.end == End::NoMotion {
         return None;
     }
-    let mean = |windows: &[Window], x: &[f64]| {
-        let problem = Problem { windows: windows.to_vec(), closed_loop: false, ..base.clone() };
-        let pieces = settled(&problem, x);
-        let rows: usize = pieces.iter().map(|p| p.residuals.len()).sum();
+    let rms = |problem: &Problem<'_>, some: &[Window]| {
+        let samples: usize = some.iter().map(Window::len).sum();
+        let pieces = settled(problem, &found.x);
         let sum: f64 = pieces.iter().flat_map(|p| &p.residuals).map(|r| r * r).sum();
-        (sum / rows.max(1) as f64).sqrt()
+        (sum / (samples * problem.channels()).max(1) as f64).sqrt()
     };
-    let (trained_error, held_out_error) = (mean(train, &found.x), mean(judge, &found.x));
+    let (trained_error, held_out_error) = (rms(&problem, &train), rms(&only(&judge), &judge));
     let free = problem.free.len();
     let rig = super::fitted(&problem, &found);
     Some(Candidate { name, held_out_error, trained_error, free, rig })
 }
 
 /// The windows at `x`, their starts fitted.
-fn settled(problem: &Problem<'_>, x: &[f64]) -> Vec<super::problem::Piece> {
+pub(super) fn settled(problem: &Problem<'_>, x: &[f64]) -> Vec<super::problem::Piece> {
     let mut pieces = problem.pieces(x, None);
     for _ in 0..2 {
         let leads: Vec<_> = problem.all_slopes(x, &pieces).into_iter().map(|s| s.lead).collect();

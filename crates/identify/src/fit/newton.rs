@@ -21,7 +21,7 @@ pub(super) struct Local {
 }
 
 /// A reduction of the misfit [1] that is not worth another step.
-const ENOUGH: f64 = 1e-3;
+const ENOUGH: f64 = 0.02;
 
 /// The share of a standard error over which the gradient is differenced.
 const SHARE: f64 = 0.1;
@@ -42,7 +42,8 @@ pub fn settle(problem: &Problem<'_>, found: Found, fixed: Option<usize>) -> Foun
         }
         let (step, gain) = newton(&information, &local.gradient, &moving);
         if gain < ENOUGH {
-            found.end = if found.end == End::NoMotion { End::NoMotion } else { End::Converged };
+            let whole = found.pieces.iter().all(|p| !p.motion.q.is_empty());
+            found.end = if whole { End::Converged } else { found.end };
             break;
         }
         let Some((x, pieces, misfit)) = shorten(problem, &found.x, &step, &local) else {

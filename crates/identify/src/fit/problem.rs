@@ -4,7 +4,7 @@ use super::{
     binding::{Free, Scale, given, model},
     data::Data,
     imposed::forces,
-    window::Window,
+    window::{START, Window},
 };
 use crate::{
     Rig,
@@ -31,6 +31,10 @@ pub struct Problem<'a> {
     pub windows: Vec<Window>,
     /// Whether the controller is simulated, too.
     pub closed_loop: bool,
+    /// The distance over which the nominal contact forgets where it was [m].
+    pub memory: f64,
+    /// The samples that count; all if empty.
+    pub counts: Vec<bool>,
     /// What a residual of each channel is divided by [its unit]: displacement, velocity, input, force, loads.
     pub weights: Weights,
     /// The steps' tolerance, of the spans of displacement and velocity [1].
@@ -55,8 +59,8 @@ pub struct Weights {
 /// One window, simulated.
 #[derive(Debug, Clone)]
 pub struct Piece {
-    /// Displacement [m] and velocity [m/s] at its start.
-    pub start: [f64; 2],
+    /// Its start: see [`START`].
+    pub start: [f64; START],
     /// Its motion; the force [N] in place of the displacement if the motion is imposed.
     pub motion: Motion,
     /// Weighed residuals, sample by sample and channel by channel, then those of the start.
@@ -67,26 +71,24 @@ pub struct Piece {
 /// and what the window's misfit was there.
 #[derive(Debug, Clone)]
 pub(super) struct Lead {
-    pub(super) was: [f64; 2],
+    pub(super) was: [f64; START],
     pub(super) misfit: f64,
-    pub(super) start: [f64; 2],
+    pub(super) start: [f64; START],
     pub(super) by: DMatrix<f64>,
 }
 
 impl Lead {
     /// A start that does not move.
-    pub(super) fn staying(start: [f64; 2], variables: usize) -> Self {
-        Self { was: start, misfit: f64::INFINITY, start, by: DMatrix::zeros(2, variables) }
+    pub(super) fn staying(start: [f64; START], variables: usize) -> Self {
+        Self { was: start, misfit: f64::INFINITY, start, by: DMatrix::zeros(START, variables) }
     }
 
     /// The start at the variables `x`, where the lead was taken at `x_0`.
-    fn at(&self, x: &[f64], x_0: &[f64]) -> [f64; 2] {
-        let mut start = self.start;
-        for (i, (x, x_0)) in x.iter().zip(x_0).enumerate() {
-            start[0] += self.by[(0, i)] * (x - x_0);
-            start[1] += self.by[(1, i)] * (x - x_0);
-        }
-        start
+    fn at(&self, x: &[f64], x_0: &[f64]) -> [f64; START] {
+        let more = |j: usize| -> f64 {
+            x.iter().zip(x_0).enumerate().map(|(i, (x, x_0))| self.by[(j, i)] * (x - x_0)).sum()
+        };
+        std::array::from_fn(|j| self.start[j] + more(j))
     }
 }
 
@@ -112,7 +114,7 @@ const NO_MOTION: f64 = 1e4;
 impl Problem<'_> {
     /// The number of residuals of a window.
     fn rows(&self, window: &Window) -> usize {
-        window.len() * self.channels() + if self.data.force.is_some() { 0 } else { 2 }
+        window.len() * self.channels() + if self.data.force.is_some() { 0 } else { START }
     }
 
     /// How many residuals a sample has.
@@ -181,20 +183,20 @@ impl Problem<'_> {
     }
 
     /// The state of the contact at a window's start follows from how it came there.
-    fn state<D: Real>(&self, model: &Model<D>, window: &Window, q: D, v: D) -> Start<D> {
-        let long = window.run_up.abs() > FORGOTTEN * model.contact.memory();
-        let z = if long && window.run_up != 0.0 {
-            let along = if v.re() == 0.0 { window.run_up } else { v.re() };
-            model.contact.sliding(along)
+    fn state<D: Real>(&self, model: &Model<D>, window: &Window, start: [D; START]) -> Start<D> {
+        let [q, v, shift] = start;
+        // By the nominal memory: the answer must not jump where a parameter passes a limit.
+        let z = if window.run_up.abs() > FORGOTTEN * self.memory {
+            model.contact.sliding(window.run_up.signum() * v.re().abs())
         } else {
             let u = D::from(self.data.input[window.first]);
             model.contact.holding(model.drive(u, q, v))
         };
-        Start { q, v, z }
+        Start { q, v, z: model.contact.shifted(z, shift) }
     }
 
     /// Simulates one window from `start` at the variables `x`.
-    pub fn piece(&self, x: &[f64], window: &Window, start: [f64; 2]) -> Piece {
+    pub fn piece(&self, x: &[f64], window: &Window, start: [f64; START]) -> Piece {
         let model = self.model(x);
         let mut residuals = Vec::with_capacity(self.rows(window));
         let range = window.first..window.end;
@@ -207,24 +209,18 @@ impl Problem<'_> {
                 force.values[window.first],
                 &mut |i, f| {
                     motion.q.push(f);
-                    residuals.push((f - force.values[window.first + i]) / self.weights.force);
+                    let off = (f - force.values[window.first + i]) / self.weights.force;
+                    residuals.push(self.share(window.first + i) * off);
                 },
             );
             return Piece { start, motion, residuals };
         }
-        let state = self.state(&model, window, start[0], start[1]);
+        let state = self.state(&model, window, start);
         let spans = self.tolerance();
         let motion = march(&model, &self.drive(window), &self.data.time[range], &state, &spans);
         let motion = motion.unwrap_or_default();
         for i in 0..window.len() {
-            let seen = |values: &[f64]| values.get(i).copied();
-            self.sample(
-                window.first + i,
-                seen(&motion.q),
-                seen(&motion.v),
-                seen(&motion.u),
-                &mut residuals,
-            );
+            self.sample(window.first + i, &motion, i, &mut residuals);
         }
         for (i, spread) in window.spread.iter().enumerate() {
             residuals.push((start[i] - window.start[i]) / spread);
@@ -232,20 +228,27 @@ impl Problem<'_> {
         Piece { start, motion, residuals }
     }
 
-    fn sample(&self, i: usize, q: Option<f64>, v: Option<f64>, u: Option<f64>, out: &mut Vec<f64>) {
-        let mut push = |value: Option<f64>, seen: f64, weight: f64| {
-            let residual = value.map_or(NO_MOTION, |value| (value - seen) / weight);
-            out.push(if residual.is_finite() { residual } else { NO_MOTION });
+    /// The residuals of sample `i`, of the `motion` at place `at`; one without a motion is far off.
+    fn sample(&self, i: usize, motion: &Motion, at: usize, out: &mut Vec<f64>) {
+        let share = self.share(i);
+        let mut push = |values: &[f64], seen: f64, weight: f64| {
+            let residual = values.get(at).map_or(NO_MOTION, |value| (value - seen) / weight);
+            out.push(share * if residual.is_finite() { residual } else { NO_MOTION });
         };
         if let Some(seen) = &self.data.displacement {
-            push(q, seen.values[i], self.weights.displacement);
+            push(&motion.q, seen.values[i], self.weights.displacement);
         }
         if let Some(seen) = &self.data.velocity {
-            push(v, seen.values[i], self.velocity_weight(&seen.values, i));
+            push(&motion.v, seen.values[i], self.velocity_weight(&seen.values, i));
         }
         if self.closed_loop {
-            push(u, self.data.input[i], self.weights.input);
+            push(&motion.u, self.data.input[i], self.weights.input);
         }
+    }
+
+    /// 1 for a sample that counts, 0 for another.
+    fn share(&self, i: usize) -> f64 {
+        if self.counts.get(i).copied().unwrap_or(true) { 1.0 } else { 0.0 }
     }
 
     /// The standard deviation of a sample of the velocity: noise, and what it changes by in a share of a sample.
@@ -260,13 +263,16 @@ impl Problem<'_> {
     fn tolerance(&self) -> Tolerance {
         let q = self.data.displacement.as_ref().map_or(1.0, |d| d.span.max(d.noise));
         let v = self.data.speed().max(1e-12);
-        let steps = 8 * self.data.time.len() + 10_000;
+        // A step of order 3 gets shorter with the cube root of what it may be wrong by.
+        let finer = (1e-5 / self.tolerance).cbrt().max(1.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within usize")]
+        let steps = (finer * (8 * self.data.time.len() + 10_000) as f64) as usize;
         Tolerance { q: self.tolerance * q, v: self.tolerance * v, z: self.tolerance, steps }
     }
 
     /// The derivatives of a window's residuals by the variables `x`, and by its start.
     pub(super) fn slopes(&self, x: &[f64], window: &Window, piece: &Piece) -> Slopes {
-        let columns = self.free.len() + 2;
+        let columns = self.free.len() + START;
         let mut jacobian = DMatrix::zeros(self.rows(window), columns);
         match columns {
             0..=3 => self.columns::<4>(x, window, piece, &mut jacobian),
@@ -280,22 +286,23 @@ impl Problem<'_> {
             return Slopes { jacobian: jacobian.columns(0, self.free.len()).into_owned(), lead };
         }
         for (i, spread) in window.spread.iter().enumerate() {
-            jacobian[(n - 2 + i, self.free.len() + i)] = spread.recip();
+            jacobian[(n - START + i, self.free.len() + i)] = spread.recip();
         }
-        let by_start = jacobian.columns(self.free.len(), 2).into_owned();
+        let by_start = jacobian.columns(self.free.len(), START).into_owned();
         let by_x = jacobian.columns(0, self.free.len()).into_owned();
         // The columns differ in size by the units of q and v; their directions are what counts.
-        let sizes = [by_start.column(0).norm(), by_start.column(1).norm()];
-        let unit = DMatrix::from_fn(n, 2, |i, j| by_start[(i, j)] / sizes[j]);
+        let sizes: [f64; START] = std::array::from_fn(|j| by_start.column(j).norm());
+        let unit = DMatrix::from_fn(n, START, |i, j| by_start[(i, j)] / sizes[j]);
         let qr = unit.qr();
         let (q, r) = (qr.q(), qr.r());
-        let inverse = r.try_inverse().unwrap_or_else(|| DMatrix::zeros(2, 2));
+        let inverse = r.try_inverse().unwrap_or_else(|| DMatrix::zeros(START, START));
         let residuals = DMatrix::from_column_slice(n, 1, &piece.residuals);
         let along = q.transpose() * &by_x;
-        let scaled = |m: DMatrix<f64>| DMatrix::from_fn(2, m.ncols(), |i, j| -m[(i, j)] / sizes[i]);
+        let scaled =
+            |m: DMatrix<f64>| DMatrix::from_fn(START, m.ncols(), |i, j| -m[(i, j)] / sizes[i]);
         let more = scaled(&inverse * (q.transpose() * residuals));
         let by = scaled(&inverse * &along);
-        let start = [piece.start[0] + more[(0, 0)], piece.start[1] + more[(1, 0)]];
+        let start = std::array::from_fn(|i| piece.start[i] + more[(i, 0)]);
         let lead = Lead { was: piece.start, misfit: piece.misfit(), start, by };
         Slopes { jacobian: by_x - q * along, lead }
     }
@@ -308,7 +315,7 @@ impl Problem<'_> {
         jacobian: &mut DMatrix<f64>,
     ) {
         let mut first = 0;
-        while first < self.free.len() + 2 {
+        while first < self.free.len() + START {
             self.some_columns::<P>(x, window, piece, (first, jacobian));
             first += P - 1;
         }
@@ -337,7 +344,9 @@ impl Problem<'_> {
                 &self.data.input[range],
                 force.values[window.first],
                 &mut |i, f| {
-                    write(i, &f, self.weights.force);
+                    if self.share(window.first + i) > 0.0 {
+                        write(i, &f, self.weights.force);
+                    }
                 },
             );
             return;
@@ -347,8 +356,8 @@ impl Problem<'_> {
             _ => DualSVec64::from(value),
         };
         let n = self.free.len();
-        let (q, v) = (seed(piece.start[0], n), seed(piece.start[1], n + 1));
-        let state = self.state(&model, window, q, v);
+        let start = std::array::from_fn(|i| seed(piece.start[i], n + i));
+        let state = self.state(&model, window, start);
         let channels = self.channels();
         let tape: &Tape = &piece.motion.tape;
         if tape.samples() != window.len() {
@@ -356,6 +365,9 @@ impl Problem<'_> {
         }
         replay(&model, &self.drive(window), tape, &state, &mut |i, q, v, u| {
             let mut row = i * channels;
+            if self.share(window.first + i) == 0.0 {
+                return;
+            }
             write(row, &q, self.weights.displacement);
             if let Some(seen) = &self.data.velocity {
                 row += 1;
@@ -389,39 +401,6 @@ impl Problem<'_> {
     /// The derivatives of all `pieces`.
     pub(super) fn all_slopes(&self, x: &[f64], pieces: &[Piece]) -> Vec<Slopes> {
         self.windows.par_iter().zip(pieces).map(|(w, piece)| self.slopes(x, w, piece)).collect()
-    }
-
-    /// Weighed residuals of the load cells against the measured angle, F₁ = F₁₀ + k₁rθ and F₂ = F₂₀ − k₂rθ, and
-    /// their derivatives.
-    pub(super) fn loads(&self, x: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
-        let (Some(loads), Some(angle)) = (&self.data.loads, &self.data.displacement) else {
-            return (Vec::new(), DMatrix::zeros(0, self.free.len()));
-        };
-        let value = |name: &str| {
-            let free = self.free.iter().position(|f| f.name == name);
-            (free.map_or_else(|| self.rig.plant[name], |i| self.free[i].value(x[i])), free)
-        };
-        let r = value("radius").0;
-        let samples: Vec<usize> = self.windows.iter().flat_map(|w| w.first..w.end).collect();
-        let mut jacobian = DMatrix::zeros(2 * samples.len(), self.free.len());
-        let mut residuals = Vec::with_capacity(2 * samples.len());
-        for (cell, side) in [(0, 1.0), (1, -1.0)] {
-            let (k, k_free) = value(["k_1", "k_2"][cell]);
-            let (f, f_free) = value(["f_10", "f_20"][cell]);
-            for i in &samples {
-                let stretch = side * r * angle.values[*i];
-                let row = residuals.len();
-                residuals
-                    .push((f + k * stretch - loads[cell].values[*i]) / self.weights.loads[cell]);
-                for (free, by) in [(k_free, stretch), (f_free, 1.0)] {
-                    if let Some(j) = free {
-                        let slope = self.free[j].slope(self.free[j].value(x[j]));
-                        jacobian[(row, j)] = by * slope / self.weights.loads[cell];
-                    }
-                }
-            }
-        }
-        (residuals, jacobian)
     }
 }
 

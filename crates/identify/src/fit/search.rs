@@ -45,8 +45,9 @@ pub struct Patience {
 /// Enough for the last fit.
 pub const TO_THE_END: Patience = Patience { misfit: 0.05, simulations: 40 };
 
-/// The cosine between the residuals and any column of the Jacobian above which a search has not converged.
-const SLANTED: f64 = 2e-3;
+/// The slope of the misfit along any variable above which a search has not converged, in that variable's standard
+/// errors as if it were the only one.
+const SLANTED: f64 = 0.3;
 
 /// The first step, of the variables' size. Those of P6 were 1 at their nominal values: with longer first steps
 /// one search in five, from starts within 30 % of the truth, jumped to where no bristle or no Stribeck effect
@@ -144,8 +145,11 @@ pub fn search(
     };
     search.simulate();
     let rounds = patience.simulations.div_ceil(search.moving.len() + 1);
+    let share = patience.misfit / search.misfit();
+    // The library panics on a tolerance that is no number.
+    let share = if share.is_finite() { share.clamp(1e-12, 1e-3) } else { 1e-3 };
     let method = LevenbergMarquardt::new()
-        .with_ftol((patience.misfit / search.misfit()).clamp(1e-12, 1e-3))
+        .with_ftol(share)
         .with_xtol(1e-9)
         .with_gtol(0.0)
         .with_stepbound(FIRST_STEP)
@@ -165,9 +169,9 @@ pub fn search(
 }
 
 fn end(search: &Search<'_, '_>, reason: &TerminationReason) -> End {
-    let moved = search.pieces.iter().any(|p| !p.motion.q.is_empty());
-    if !moved && !search.pieces.is_empty() {
-        return End::NoMotion;
+    let still = search.pieces.iter().filter(|p| p.motion.q.is_empty()).count();
+    if still > 0 {
+        return if still == search.pieces.len() { End::NoMotion } else { End::Stalled };
     }
     if search.moving.is_empty() {
         return End::Converged;
@@ -181,7 +185,8 @@ fn end(search: &Search<'_, '_>, reason: &TerminationReason) -> End {
     let size = residuals.norm().max(f64::MIN_POSITIVE);
     let slanted = jacobian.column_iter().any(|column| {
         let long = column.norm();
-        long > 0.0 && (column.dot(&residuals) / (long * size)).abs() > SLANTED
+        let errors = (residuals.len() as f64).sqrt() * column.dot(&residuals) / (long * size);
+        long > 0.0 && errors.abs() > SLANTED
     });
     if slanted && size > 1e-6 { End::Stalled } else { End::Converged }
 }

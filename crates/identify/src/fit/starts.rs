@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 /// A first look from each start.
-const LOOK: Patience = Patience { misfit: 1.0, simulations: 14 };
+const LOOK: Patience = Patience { misfit: 1.0, simulations: 12 };
 
 /// The fit's variables at the nominal values; what is nominally zero begins at its own size.
 pub(super) fn nominal(problem: &Problem<'_>) -> Vec<f64> {
@@ -22,11 +22,10 @@ pub(super) fn nominal(problem: &Problem<'_>) -> Vec<f64> {
         .map(|free| match free.scale {
             Scale::Linear(_) => free.variable(free.given),
             Scale::Above(_) if free.given > f_c => free.variable(free.given - f_c),
-            Scale::Above(_) => 1.0,
             Scale::Logarithm(_) | Scale::InverseSquare(_) if free.given > 0.0 => {
                 free.variable(free.given)
             }
-            Scale::Logarithm(_) | Scale::InverseSquare(_) => 1.0,
+            Scale::Above(_) | Scale::Logarithm(_) | Scale::InverseSquare(_) => 1.0,
         })
         .collect()
 }

@@ -9,13 +9,21 @@ pub struct Window {
     pub first: usize,
     /// One past its last sample.
     pub end: usize,
-    /// Displacement [m] and velocity [m/s] at the first sample, as the samples after it show them.
-    pub start: [f64; 2],
+    /// Its start as the samples after it show it.
+    pub start: [f64; START],
     /// The standard deviations of these.
-    pub spread: [f64; 2],
-    /// How far the displacement has come since it last turned [m], with its sign.
+    pub spread: [f64; START],
+    /// How far the displacement has come since it last turned [m], with its sign; 0 where it is at rest, for then
+    /// the contact holds what force there is, wherever it came from.
     pub run_up: f64,
 }
+
+/// The numbers of a window's start: displacement [m], velocity [m/s], and how far the contact's states are from
+/// what the run-up says of them [of their natural size].
+pub const START: usize = 3;
+
+/// The standard deviation of the last of them: a contact that still rings is not where it holds the force.
+const UNKNOWN: f64 = 0.1;
 
 /// How many samples tell the state at a window's start.
 const LOOK: usize = 9;
@@ -27,7 +35,7 @@ impl Window {
     /// The window of these samples.
     pub fn new(data: &Data, first: usize, end: usize) -> Self {
         let Some(seen) = &data.displacement else {
-            return Self { first, end, start: [0.0; 2], spread: [1.0; 2], run_up: 0.0 };
+            return Self { first, end, start: [0.0; START], spread: [1.0; START], run_up: 0.0 };
         };
         let look = &seen.values[first..(first + LOOK).min(end)];
         let time = &data.time[first..(first + LOOK).min(end)];
@@ -41,12 +49,13 @@ impl Window {
         if v.abs() < 2.0 * v_spread {
             v = 0.0;
         }
+        let come = run_up(&seen.values[..=first], 4.0 * seen.noise);
         Self {
             first,
             end,
-            start: [q, v],
-            spread: [LOOSE * q_spread, LOOSE * v_spread],
-            run_up: run_up(&seen.values[..=first], 4.0 * seen.noise),
+            start: [q, v, 0.0],
+            spread: [LOOSE * q_spread, LOOSE * v_spread, UNKNOWN],
+            run_up: if v.abs() > MOVING * v_spread { come * same(come, v) } else { 0.0 },
         }
     }
 
@@ -60,6 +69,14 @@ impl Window {
         self.end <= self.first
     }
 }
+
+/// 1 for two numbers of one sign, else 0.
+fn same(a: f64, b: f64) -> f64 {
+    if a * b > 0.0 { 1.0 } else { 0.0 }
+}
+
+/// So many standard deviations of the velocity are a motion.
+const MOVING: f64 = 5.0;
 
 /// Value and slope at the first time of the parabola (of the line, the constant, if there are not enough) that
 /// fits best, and their standard deviations for values with this `noise`.

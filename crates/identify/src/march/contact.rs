@@ -1,6 +1,7 @@
 //! The friction of one stage: its states and its force as functions of the stage's velocity alone.
 
 use super::{Real, size};
+use num_dual::DualStruct;
 
 /// A friction model without its viscous term, in numbers that may carry derivatives.
 #[derive(Debug, Clone, PartialEq)]
@@ -113,7 +114,7 @@ impl<D: Real> Contact<D> {
 
     /// The states [N] or [m] of a contact that has been sliding at the velocity `v` for long.
     pub fn sliding(&self, v: f64) -> Vec<D> {
-        let toward = |x: D| if v < 0.0 { -x } else { x };
+        let toward = |x: D| if v.is_sign_negative() { -x } else { x };
         match self {
             Self::None | Self::Coulomb { .. } => Vec::new(),
             Self::Dahl { f_c, .. } => vec![toward(*f_c)],
@@ -142,13 +143,27 @@ impl<D: Real> Contact<D> {
         }
     }
 
+    /// The states `z` shifted by `share` of their natural size, no element beyond its deadband.
+    pub fn shifted(&self, mut z: Vec<D>, share: D) -> Vec<D> {
+        if let Self::MaxwellSlip { delta, .. } = self {
+            for (z, delta) in z.iter_mut().zip(delta) {
+                *z = within(*z + *delta * share, *delta);
+            }
+            return z;
+        }
+        for z in &mut z {
+            *z += share * self.scale();
+        }
+        z
+    }
+
     /// The distance [m] over which the contact forgets where it was.
     pub fn memory(&self) -> f64 {
         match self {
             Self::None | Self::Coulomb { .. } => 0.0,
             Self::Dahl { f_c, sigma, .. } => f_c.re() / sigma.re(),
             Self::LuGre { f_c, f_s, sigma_0, .. } => f_c.re().max(f_s.re()) / sigma_0.re(),
-            Self::MaxwellSlip { delta, .. } => delta.iter().map(|d| d.re()).fold(0.0, f64::max),
+            Self::MaxwellSlip { delta, .. } => delta.iter().map(DualStruct::re).fold(0.0, f64::max),
         }
     }
 
@@ -205,7 +220,8 @@ fn root(w_base: f64, kappa: f64, gamma: f64) -> f64 {
         let excess = value + slope - target;
         let steep = (p * value + q * slope) / y;
         let next = (y - excess / steep).max(0.0);
-        if !(next < y * (1.0 - 1e-15)) {
+        // Not a number ends it, too.
+        if next.partial_cmp(&(y * (1.0 - 1e-15))) != Some(std::cmp::Ordering::Less) {
             break;
         }
         y = next;

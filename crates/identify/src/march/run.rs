@@ -211,7 +211,7 @@ impl<'a> Walker<'a> {
                 match attempt {
                     Some(attempt) if enough || taken => {
                         from = if attempt.step.h == left { dt } else { from + attempt.step.h };
-                        self.take(attempt, tape);
+                        self.take(&attempt, tape);
                         self.h = h * grows;
                         break;
                     }
@@ -226,7 +226,7 @@ impl<'a> Walker<'a> {
         Ok(())
     }
 
-    fn take(&mut self, attempt: Attempt, tape: &mut Tape) {
+    fn take(&mut self, attempt: &Attempt, tape: &mut Tape) {
         (self.q, self.v) = (attempt.q, attempt.v);
         self.z.copy_from_slice(&self.z_stage);
         tape.steps.push(attempt.step);

@@ -103,9 +103,9 @@ fn root(
             return Some(v);
         }
         if value > 0.0 {
-            high = v
+            high = v;
         } else {
-            low = v
+            low = v;
         }
         let step = -value / slope;
         let mut next = v + step;

@@ -68,8 +68,8 @@ pub struct Linear {
 /// The plants whose force is linear in their parameters.
 ///
 /// - `axis`: F_e = M q̈ + F
-/// - `mass-spring`: F_e = m q̈ + k_s q + F   (28)
-/// - `drum`: k_m i = I θ̈ + (k₁ + k₂)r²θ + T_f, where `offset` holds (F₁₀ − F₂₀)r as well   (38)
+/// - `mass-spring`: F_e = m q̈ + k_s q + F
+/// - `drum`: k_m i = I θ̈ + (k₁ + k₂)r²θ + T_f, where `offset` holds (F₁₀ − F₂₀)r as well
 /// - `pendulum`: K_t (V − K_t θ̇)/R = I θ̈ + m g l sin θ + T_f
 /// - `prescribed`: the force measured is F
 pub const LINEAR: &[Linear] = &[

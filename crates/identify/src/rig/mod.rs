@@ -1,4 +1,11 @@
 //! The rig file: the plant, its nominal friction, what is free, and which column is which channel.
+//!
+//! It is TOML: `title`, `[plant]` with a `kind` of [`KINDS`] and its keys, `[friction]` with a `name` of
+//! [`duhem::MODELS`] or `none` and its keys, `[fit] free`, `[channels]`, `[controller]` and `[[effect]]`.
+//! What the file leaves out: `offset` is 0, Dahl's `gamma` 1, every model's `sigma_2` 0, a controller's
+//! `hold` zero-order, a channel's `hold` linear, its unit SI. Exactly one of a plant's drives is a channel, and
+//! an axis has a `gain` if and only if that is a voltage. A `[controller]` needs the channel `reference`. A
+//! minus before a unit turns the channel around. A `quantum` is in SI units on the side `at` which is measured.
 
 mod error;
 mod kinds;

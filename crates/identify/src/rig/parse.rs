@@ -20,7 +20,7 @@ const TABLES: &[&str] = &["title", "plant", "friction", "fit", "channels", "cont
 impl Rig {
     /// The rig that a rig file declares.
     ///
-    /// The format stands in the README. Fails on a text that is not TOML or longer than 1 MiB, on an
+    /// The format stands at the head of [`crate::rig`]. Fails on a text that is not TOML or longer than 1 MiB, on an
     /// unknown key or name, on a key that is missing and on a value that cannot be meant; the error names
     /// the line, the key, what was found and what was expected.
     pub fn parse(text: &str) -> Result<Self, RigError> {

@@ -29,7 +29,7 @@ pub(crate) fn is_matlab(head: &[u8]) -> bool {
 /// Reads the arrays of real numbers of a MATLAB 5 file.
 ///
 /// An N×1 or 1×N array is a column, an N×M array is M columns `name[1]`, `name[2]` and on.
-/// What is anything else, or of another length than the longest, is named in [`Sheet::skipped`].
+/// What is anything else, or of another length than most numbers, is named in [`Sheet::skipped`].
 pub fn read_matlab(mut input: impl Read) -> Result<Sheet, SheetError> {
     let mut header = [0; 128];
     input.read_exact(&mut header).map_err(|e| broken("the header", &e))?;
@@ -65,7 +65,7 @@ pub fn read_matlab(mut input: impl Read) -> Result<Sheet, SheetError> {
             return Err(ended(&place));
         }
     }
-    Sheet::of_longest(found.columns, found.skipped)
+    Sheet::of_most(found.columns, found.skipped)
 }
 
 /// The next element's type and size, or none at the end of the file.
@@ -169,6 +169,8 @@ impl About {
     /// What it is, if it is no array of real numbers with at least one row and one column.
     fn no_columns(&self) -> Option<String> {
         let what = match self.class {
+            // What MATLAB keeps beside its objects: a long array of bytes.
+            _ if self.name.is_empty() => "without a name",
             1 => "a cell array",
             2 => "a structure",
             3 | 17 => "an object",

@@ -19,6 +19,7 @@ pub use parquet::read_parquet;
 pub use write::{write_sheet_csv, write_sheet_parquet};
 
 use error::shown;
+use std::collections::BTreeMap;
 use std::{fs::File, io::Read, path::Path};
 
 /// How many columns a record may have.
@@ -116,9 +117,9 @@ impl Sheet {
         (row < self.rows).then(|| line + (row - first) as u64)
     }
 
-    /// A sheet of columns that need not agree in length: the longest say how many rows there are, the others
-    /// are left out.
-    pub(crate) fn of_longest(
+    /// A sheet of columns that need not agree in length: those stay whose length most numbers of the file stand
+    /// under, so that neither constants nor a single long table take the record's place.
+    pub(crate) fn of_most(
         columns: Vec<SheetColumn>,
         mut skipped: Vec<Skipped>,
     ) -> Result<Self, SheetError> {
@@ -126,7 +127,11 @@ impl Sheet {
             Cells::Numbers(numbers) => numbers.len(),
             Cells::Text { .. } => 0,
         };
-        let rows = columns.iter().map(length).max().unwrap_or(0);
+        let mut cells = BTreeMap::new();
+        for rows in columns.iter().map(length) {
+            *cells.entry(rows).or_insert(0) += rows;
+        }
+        let rows = cells.into_iter().max_by_key(|(_, cells)| *cells).map_or(0, |(rows, _)| rows);
         if rows == 0 {
             let held = skipped.iter().take(8).map(|s| format!("`{}`, {}", shown(&s.name), s.what));
             let held = held.collect::<Vec<_>>().join("; ");
@@ -136,7 +141,7 @@ impl Sheet {
         }
         let (kept, short) = columns.into_iter().partition(|column| length(column) == rows);
         skipped.extend(Vec::into_iter(short).map(|column| Skipped {
-            what: format!("of {} rows where the longest have {rows}", length(&column)),
+            what: format!("of {} rows where the record has {rows}", length(&column)),
             name: column.name,
         }));
         Ok(Self { columns: kept, skipped, rows, lines: Vec::new() })

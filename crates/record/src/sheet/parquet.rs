@@ -10,7 +10,7 @@ use std::io::{Read, Seek, SeekFrom};
 /// How long the footer may be [bytes].
 const FOOTER: u64 = 4 << 20;
 /// How many values the footer may hold: 25 for each column of each group of rows.
-const VALUES: usize = 1_000_000;
+const VALUES: usize = 500_000;
 /// How large a column's part of one group of rows may be, as it lies in the file [bytes].
 const CHUNK: usize = 64 << 20;
 /// How many bytes may be read from the file's pages, and as many unpacked: pages may be told of twice, and a
@@ -51,7 +51,7 @@ pub fn read_parquet(mut input: impl Read + Seek) -> Result<Sheet, SheetError> {
         let found = format!("{} columns and no rows", columns.len());
         return Err(SheetError::content("the file", found, "rows of numbers"));
     }
-    Sheet::of_longest(columns, skipped)
+    Sheet::of_most(columns, skipped)
 }
 
 fn disk(source: std::io::Error) -> SheetError {

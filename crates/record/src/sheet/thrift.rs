@@ -1,6 +1,6 @@
 //! The compact protocol of Thrift, in which a Parquet file tells of itself, as a bounded tree.
 //!
-//! Why not the reader that comes with polars: one damaged file in about ten thousand makes it ask for 2⁶¹ bytes,
+//! Why not the reader that comes with polars: one damaged file in some thousands makes it ask for 2⁶¹ bytes,
 //! which ends the program and cannot be caught. Here nothing is reserved that has not been read.
 
 /// How deep values may lie in each other.

@@ -69,12 +69,18 @@ fn lines<'a>(
         let own = rows.iter().filter(|row| row.panel == panel.panel && row.series == **name);
         let points: Vec<_> = own.map(|row| (row.x, row.y)).collect();
         let marks = points.len() <= FEW;
-        let n = if alone { 0 } else { n };
+        let n = if alone || lonely(rows, name) { 0 } else { n };
         let look = if Look::is_solver(name) { Look::of_solver(name) } else { Look::nth(n) };
         (*name, Line { name: number::point(name), note: String::new(), look, points, marks })
     };
     let drawn = |(_, line): &(&str, Line)| !line.points.is_empty();
     names.iter().enumerate().map(line).filter(drawn).collect()
+}
+
+/// Whether a series shares no panel with another: it needs no look of its own.
+fn lonely(rows: &[&CurveRow], name: &str) -> bool {
+    let panels = distinct(rows.iter().filter(|r| r.series == name).map(|r| r.panel.as_str()));
+    !rows.iter().any(|row| row.series != name && panels.contains(&row.panel.as_str()))
 }
 
 /// The histories that end where their run failed: a line that just stops would seem to have arrived.

@@ -3,12 +3,13 @@
 use super::paragraphs;
 use crate::chapter::{Chapter, Figure, heading, split_first, told};
 use crate::escape::html;
+use crate::fits;
 use crate::grid;
 use crate::number;
 use crate::plot::inline;
 use crate::prose;
 use crate::select::distinct;
-use record::StudyRow;
+use record::{FitRow, StudyRow};
 
 /// Writes the experiment.
 pub(super) fn write(out: &mut String, chapter: &Chapter) {
@@ -23,6 +24,9 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
         summary.studies.iter().partition(|row| !chapter.figures_of(&row.study).is_empty());
     for study in shown {
         write_study(out, chapter, study);
+    }
+    for fit in &summary.fits {
+        write_fit(out, chapter, fit);
     }
     for figure in chapter.figures_of("") {
         write_figure(out, chapter, figure);
@@ -80,11 +84,32 @@ fn write_study(out: &mut String, chapter: &Chapter, study: &StudyRow) {
 }
 
 fn write_told(out: &mut String, study: &StudyRow, text: &str) {
-    put!(out, "{}<dl class=\"study\">", paragraphs(text));
-    for (key, text) in told(study) {
+    out.push_str(&paragraphs(text));
+    write_list(out, told(study));
+}
+
+fn write_list(out: &mut String, told: Vec<(&'static str, String)>) {
+    out.push_str("<dl class=\"study\">");
+    for (key, text) in told {
         put!(out, "<dt>{key}<dd>{}", prose::html(&text));
     }
     out.push_str("</dl>\n");
+}
+
+/// A fit: its text, its tables, its figures; how it went is folded.
+fn write_fit(out: &mut String, chapter: &Chapter, fit: &FitRow) {
+    let heading = fits::heading(fit);
+    put!(out, "<h3>{}</h3>\n{}", prose::html(heading), paragraphs(&fit.text));
+    for (title, reads, grid) in fits::tables(chapter.summary, &fit.fit) {
+        let label = format!("{title} of {heading}");
+        put!(out, "<p><b>{title}.</b> {}</p>\n{}", html(reads), grid.html(&label));
+    }
+    out.push_str("<details><summary>The fit</summary>\n");
+    write_list(out, fits::told(fit));
+    out.push_str("</details>\n");
+    for figure in chapter.figures_of(&fit.fit) {
+        write_figure(out, chapter, figure);
+    }
 }
 
 /// The figures put aside and those of how the solvers did, all of the chapter in one fold.

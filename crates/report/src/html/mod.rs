@@ -9,7 +9,8 @@ use crate::chapter::Chapter;
 use crate::escape::html;
 use crate::plot::CSS;
 
-const PAGE: &str = include_str!("page.css");
+/// How a page looks beside its figures.
+pub(crate) const PAGE: &str = include_str!("page.css");
 
 /// The whole page.
 pub(crate) fn page(chapters: &[Chapter], across: Option<&Across>) -> String {

@@ -1,0 +1,99 @@
+//! In which way a record is simulated, and how its channels are weighed.
+
+use super::{
+    FitError, Options, Way, blocks,
+    gap::{residuals, weights_of},
+    problem::Problem,
+    search::{self, End, Found, Patience, TO_THE_END},
+    starts,
+};
+
+/// A single run must explain the record down to its noise, or windows are preferred: what it leaves, as the noise
+/// of the measured input does, adds up from sample to sample, and is not what the intervals are made for [1].
+const AS_GOOD: f64 = 2.0;
+
+/// A single run that leaves so much more than the noise after a first look is given up [1].
+const HOPELESS: f64 = 1e4;
+
+/// The first look at a single run.
+const A_GLANCE: Patience = Patience { misfit: 1.0, simulations: 8 };
+
+/// The way in which the record is simulated, and the minimum found so.
+pub(super) fn best_way<'a>(
+    whole: Problem<'a>,
+    options: &Options,
+) -> Result<(Problem<'a>, Found, Way), FitError> {
+    let data = whole.data;
+    let one = if whole.data.force.is_some() {
+        Some(Way::Imposed)
+    } else if whole.closed_loop {
+        Some(Way::ClosedLoop)
+    } else {
+        None
+    };
+    if let Some(way) = one {
+        let (problem, found) = weighed(whole, options)?;
+        return Ok((problem, found, way));
+    }
+    let windows = Problem { windows: blocks::blocks(data, options.window), ..whole.clone() };
+    if options.window.is_some() {
+        let (problem, found) = weighed(windows, options)?;
+        return Ok((problem, found, Way::Windows));
+    }
+    let by_windows = weighed(windows, options)?;
+    if mean_of(&search::search(&whole, (&by_windows.1.x, None), None, &A_GLANCE)) > HOPELESS {
+        return Ok((by_windows.0, by_windows.1, Way::Windows));
+    }
+    let single = starts::best(&whole, options, Some(&by_windows.1.x));
+    if mean_of(&single) <= AS_GOOD {
+        let (problem, found) = reweighed(whole, single);
+        return Ok((problem, found, Way::OneRun));
+    }
+    // A single run sees more than windows do, and may have found the better minimum.
+    let again = search::search(&by_windows.0, (&single.x, None), None, &TO_THE_END);
+    let found = if again.misfit < by_windows.1.misfit { again } else { by_windows.1 };
+    Ok((by_windows.0, found, Way::Windows))
+}
+
+/// The mean squared weighed residual [1].
+fn mean_of(found: &Found) -> f64 {
+    found.misfit / found.pieces.iter().map(|p| p.residuals.len()).sum::<usize>().max(1) as f64
+}
+
+/// The best of several starts, then once more with each channel weighed by what its residuals are.
+fn weighed<'a>(problem: Problem<'a>, options: &Options) -> Result<(Problem<'a>, Found), FitError> {
+    let found = starts::best(&problem, options, None);
+    if found.end == End::NoMotion {
+        return Err(FitError::NoMotion);
+    }
+    Ok(reweighed(problem, found))
+}
+
+/// Where a channel's residuals are larger than its noise the model lacks something there, and the channel counts
+/// for less; how much less follows from the minimum, and so again until it no longer changes.
+fn reweighed(problem: Problem<'_>, found: Found) -> (Problem<'_>, Found) {
+    let (mut problem, mut found) = (problem, found);
+    let noise = problem.weights;
+    for _ in 0..REWEIGHED {
+        let rms = residuals(&problem, &found);
+        let (mut weights, mut floor, mut old) = (problem.weights, noise, problem.weights);
+        let mut change: f64 = 0.0;
+        let now = weights_of(&problem, &mut weights).into_iter();
+        let least = weights_of(&problem, &mut floor).into_iter();
+        let before = weights_of(&problem, &mut old).into_iter();
+        for (((now, least), before), (_, rms)) in now.zip(least).zip(before).zip(&rms) {
+            *now = if *rms > 1.3 * *least { *rms } else { *least };
+            change = change.max((*now / *before).ln().abs());
+        }
+        if change < 0.2 {
+            break;
+        }
+        problem = Problem { weights, ..problem };
+        let from = (found.x.as_slice(), Some(found.pieces.as_slice()));
+        found = search::search(&problem, from, None, &TO_THE_END);
+    }
+    (problem, found)
+}
+
+/// So many times the channels are weighed anew.
+const REWEIGHED: usize = 4;

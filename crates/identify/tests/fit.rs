@@ -1,0 +1,179 @@
+//! What a fit says: values, intervals, what a record cannot tell, and how it ended.
+
+use identify::{
+    Hold, Rig,
+    fit::{Data, Fit, FitError, Options, Seen, Way, binding, fit, search::End, simulate},
+    march::{Drive, Start, Tolerance, march},
+};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+const RATE: f64 = 100.0;
+const SAMPLES: u32 = 1200;
+/// Standard deviation of the sensors [m] and [m/s].
+const NOISE: [f64; 2] = [2e-4, 5e-3];
+
+fn rig(friction: &str, free: &str) -> Rig {
+    let text = format!(
+        "title = \"a mass on a spring\"\n[plant]\nkind = \"mass-spring\"\nmass = 1.0\nstiffness = 20.0\n\
+         [friction]\n{friction}\n[fit]\nfree = [{free}]\n\
+         [channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"q\"\nvelocity = \"v\"\n"
+    );
+    Rig::parse(&text).expect("a rig file")
+}
+
+/// A record of `rig` under a force of this `amplitude` [N], with noise of its own.
+fn record(rig: &Rig, amplitude: f64, seed: u64) -> Data {
+    let time: Vec<f64> = (0..SAMPLES).map(|i| f64::from(i) / RATE).collect();
+    let wave = |t: f64| (1.3 * t).sin() + 0.5 * (4.1 * t).sin();
+    let input: Vec<f64> = time.iter().map(|t| amplitude * wave(*t)).collect();
+    let model = binding::model::<f64>(rig, &|_| None);
+    let drive = Drive::Recorded { values: &input, hold: Hold::Linear };
+    let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.contact.states()] };
+    let fine = Tolerance { q: 1e-9, v: 1e-9, z: 1e-8, steps: 10_000_000 };
+    let motion = march(&model, &drive, &time, &start, &fine).expect("a motion");
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut noisy = |values: &[f64], noise: f64| -> Vec<f64> {
+        // The sum of twelve even numbers is nearly normal.
+        let mut normal = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+        values.iter().map(|v| v + noise * normal()).collect()
+    };
+    Data {
+        displacement: Some(Seen::new("position", noisy(&motion.q, NOISE[0]), 0.0)),
+        velocity: Some(Seen::new("velocity", noisy(&motion.v, NOISE[1]), 0.0)),
+        time,
+        input,
+        hold: Hold::Linear,
+        force: None,
+        loads: None,
+        reference: Vec::new(),
+        added: Vec::new(),
+    }
+}
+
+fn quick() -> Options {
+    Options { starts: 2, bootstrap: 200, models: false, ..Options::default() }
+}
+
+fn off_by(rig: &Rig, factor: f64) -> Rig {
+    let mut off = rig.clone();
+    for name in rig.free_parameters() {
+        let value = rig.value(&name).expect("a parameter");
+        off.set(&name, value * factor).expect("within its bounds");
+    }
+    off
+}
+
+fn found_within(fit: &Fit, rig: &Rig, errors: f64) {
+    for p in &fit.parameters {
+        let truth = rig.value(&p.name).expect("a parameter");
+        let off = (p.found - truth).abs() / p.standard_error;
+        let (found, error) = (p.found, p.standard_error);
+        assert!(off < errors, "{}: {found} ± {error} for {truth}, {off:.1} errors off", p.name);
+        assert!(error < 0.2 * truth.abs(), "{}: ± {error} says nothing of {truth}", p.name);
+    }
+}
+
+#[test]
+fn every_friction_model_is_found_from_thirty_per_cent_off() {
+    let models = [
+        ("name = \"coulomb\"\nf_c = 2.0\nsigma_2 = 1.5", "\"f_c\", \"sigma_2\", \"mass\""),
+        (
+            "name = \"dahl\"\nf_c = 2.0\nsigma = 4000.0\nsigma_2 = 1.5",
+            "\"f_c\", \"sigma\", \"sigma_2\"",
+        ),
+        (
+            "name = \"lugre\"\nf_c = 2.0\nf_s = 3.0\nv_s = 0.05\nsigma_0 = 5e3\nsigma_1 = 80.0\nsigma_2 = 1.5",
+            "\"f_c\", \"f_s\", \"v_s\", \"sigma_0\", \"sigma_1\", \"sigma_2\"",
+        ),
+        (
+            "name = \"maxwell-slip\"\nk = [2e3, 1e3]\ndelta = [5e-4, 1.5e-3]\nsigma_2 = 1.5",
+            "\"k\", \"delta\", \"sigma_2\"",
+        ),
+    ];
+    for (i, (friction, free)) in models.into_iter().enumerate() {
+        let truth = rig(friction, free);
+        let data = record(&truth, 6.0, 11 + i as u64);
+        let fit = fit(&off_by(&truth, 1.3), &data, &quick()).expect("a fit");
+        assert_eq!(fit.end, End::Converged, "{friction}: {:?}", fit.end);
+        assert_eq!(fit.way, Way::OneRun, "{friction}: noise alone is left, so one run will do");
+        assert!((0.8..1.25).contains(&fit.variance), "{friction}: variance {}", fit.variance);
+        assert!(fit.step_error < 0.3, "{friction}: steps add {} errors", fit.step_error);
+        found_within(&fit, &truth, 4.0);
+    }
+}
+
+#[test]
+fn what_a_record_does_not_show_is_said_so_and_not_made_up() {
+    // The force never reaches F_C: the mass sticks, and any larger F_C would hold it as well.
+    let truth =
+        rig("name = \"dahl\"\nf_c = 20.0\nsigma = 4000.0\ngamma = 0.0", "\"f_c\", \"sigma\"");
+    let data = record(&truth, 6.0, 5);
+    let fit = fit(&truth, &data, &quick()).expect("a fit");
+    assert_eq!(
+        fit.end,
+        End::Converged,
+        "{:?} {:?} {}",
+        fit.parameters,
+        fit.simulations,
+        fit.step_error
+    );
+    let f_c = &fit.parameters[0];
+    assert!(!f_c.identified, "F_C {:?} of a contact that never slides", f_c.interval);
+    assert_eq!(f_c.interval[1], None, "no largest F_C");
+    let sigma = &fit.parameters[1];
+    assert!(sigma.identified, "σ {:?} is what sticking shows", sigma.interval);
+    assert!((sigma.found - 4000.0).abs() < 4.0 * sigma.standard_error, "σ = {}", sigma.found);
+}
+
+#[test]
+fn three_kinds_of_interval_agree_where_the_model_is_right() {
+    let truth =
+        rig("name = \"coulomb\"\nf_c = 2.0\nsigma_2 = 1.5", "\"f_c\", \"sigma_2\", \"mass\"");
+    let fit = fit(&truth, &record(&truth, 6.0, 3), &quick()).expect("a fit");
+    for p in &fit.parameters {
+        let width = |[low, high]: [f64; 2]| high - low;
+        let [Some(low), Some(high)] = p.interval else { panic!("{}: {:?}", p.name, p.interval) };
+        let (profile, plain) = (width([low, high]), width(p.asymptotic));
+        let drawn = width(p.bootstrap.expect("drawn"));
+        assert!((profile / plain - 1.0).abs() < 0.25, "{}: {profile} and {plain}", p.name);
+        assert!((drawn / plain - 1.0).abs() < 0.5, "{}: {drawn} and {plain}", p.name);
+    }
+}
+
+#[test]
+fn the_model_that_made_the_record_wins_on_blocks_it_did_not_see() {
+    let truth = rig(
+        "name = \"lugre\"\nf_c = 2.0\nf_s = 3.0\nv_s = 0.05\nsigma_0 = 5e3\nsigma_1 = 80.0\nsigma_2 = 1.5",
+        "\"f_c\", \"f_s\", \"v_s\", \"sigma_0\", \"sigma_1\", \"sigma_2\"",
+    );
+    let options = Options { profiles: false, models: true, ..quick() };
+    let fit = fit(&truth, &record(&truth, 6.0, 7), &options).expect("a fit");
+    assert_eq!(fit.models[0].name, "lugre", "{:?}", fit.models);
+    let error = fit.models[0].held_out_error;
+    assert!((0.8..1.3).contains(&error), "{error} of the noise on blocks not seen");
+    assert!(fit.models.last().is_some_and(|m| m.held_out_error > 2.0 * error), "{:?}", fit.models);
+}
+
+#[test]
+fn a_windows_start_is_not_taken_for_sliding_where_the_drive_rests() {
+    // A slow force on a stiff contact: rests of seconds between the slides.
+    let truth = rig(
+        "name = \"lugre\"\nf_c = 4.0\nf_s = 5.0\nv_s = 0.05\nsigma_0 = 8e3\nsigma_1 = 180.0\nsigma_2 = 1.5",
+        "\"f_c\", \"sigma_0\"",
+    );
+    let data = record(&truth, 6.0, 9);
+    let run = simulate(&truth, &data, Some(0.7)).expect("a run");
+    let misfit = &run.gap[0];
+    assert!(misfit.after < 1.5 * NOISE[0], "{} m in windows, noise {}", misfit.after, NOISE[0]);
+}
+
+#[test]
+fn a_record_without_a_motion_or_with_nothing_free_is_refused() {
+    let truth = rig("name = \"coulomb\"\nf_c = 2.0", "\"f_c\"");
+    let mut data = record(&truth, 6.0, 3);
+    data.time.truncate(7);
+    assert!(matches!(fit(&truth, &data, &quick()), Err(FitError::TooShort { found: 7, .. })));
+    let none = Rig { free: Vec::new(), ..rig("name = \"none\"", "") };
+    assert_eq!(fit(&none, &record(&truth, 6.0, 3), &quick()).err(), Some(FitError::NothingFree));
+}
