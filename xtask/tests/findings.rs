@@ -220,6 +220,11 @@ fn the_winners_are_those_that_the_captions_name() {
 fn every_measure_has_a_second_parent_as_near_as_it_must_be() {
     for path in experiments() {
         for row in tables(&path).measures {
+            // What noise keeps from being known has its own bound: `findings_fit.rs`.
+            if row.code.contains("quantities/fit.rs") {
+                assert!(row.error.is_finite() && row.error >= 0.0, "{}: ± {}", row.id, row.error);
+                continue;
+            }
             // What a plant was solved for is good to a micrometre or a microsecond, and a count is exact.
             let solved = row.method.starts_with("the plant solved");
             let count = ["fig15.slips", "fig22.full-slips"].contains(&row.id.as_str());

@@ -139,7 +139,7 @@ fn fitted(rig: &Rig, data: &Data) -> (Found, Vec<f64>) {
         weights,
         tolerance: TOLERANCE,
     };
-    let found = newton::settle(&problem, search(&problem, &x, None, &TO_THE_END), None);
+    let found = newton::settle(&problem, search(&problem, (&x, None), None, &TO_THE_END), None);
     let values = (0..found.x.len()).map(|i| problem.value(i, &found.x)).collect();
     (found, values)
 }

@@ -166,7 +166,7 @@ fn bound(
 ) -> Side {
     let c = &spread.covariance;
     let error = c[(i, i)].sqrt() * spread.inflation[i];
-    let mut x = found.x.clone();
+    let (mut x, mut pieces) = (found.x.clone(), found.pieces.clone());
     let (mut inside, mut inside_root) = (0.0, 0.0);
     let mut outside: Option<(f64, f64)> = None;
     let mut away = (NORMAL * error).clamp(1e-9, 2.0);
@@ -178,7 +178,12 @@ fn bound(
         }
         there[i] = found.x[i] + sign * away;
         let patience = Patience { misfit: 0.005 * limit, simulations: 24 };
-        let near = search(problem, &there, Some(i), &patience);
+        let mut near = search(problem, (&there, Some(&pieces)), Some(i), &patience);
+        if near.misfit - found.misfit > 1.1 * limit {
+            // The windows' starts may have gone astray; from where they were seen they may not.
+            let other = search(problem, (&there, None), Some(i), &patience);
+            near = if other.misfit < near.misfit { other } else { near };
+        }
         if near.misfit < found.misfit - LOWER * spread.variance {
             return Side::Lower(Box::new(near));
         }
@@ -188,7 +193,7 @@ fn bound(
         }
         if root < 1.0 {
             (inside, inside_root) = (away, root);
-            x = near.x;
+            (x, pieces) = (near.x, near.pieces);
         } else {
             outside = Some((away, root));
         }

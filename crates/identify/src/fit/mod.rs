@@ -199,7 +199,8 @@ fn settled(mut problem: Problem<'_>, found: Found) -> Minimum<'_> {
         round += 1;
         problem.tolerance *= 0.1;
         let spent = found.simulations;
-        let again = search::search(&problem, &found.x, None, &TO_THE_END);
+        let from = (found.x.as_slice(), Some(found.pieces.as_slice()));
+        let again = search::search(&problem, from, None, &TO_THE_END);
         if again.end == End::NoMotion {
             // More steps than are allowed: what there is is as good as it gets.
             return Minimum { problem, found, local, spread, step_error };
@@ -226,7 +227,8 @@ fn profiled<'a>(minimum: Minimum<'a>, options: &Options) -> (Minimum<'a>, Vec<In
         let (profiles, lower) =
             interval::profiles(&minimum.problem, &minimum.found, &minimum.spread);
         let Some(lower) = lower.filter(|_| round < LOWER) else { return (minimum, profiles) };
-        let mut next = search::search(&minimum.problem, &lower.x, None, &TO_THE_END);
+        let mut next =
+            search::search(&minimum.problem, (&lower.x, Some(&lower.pieces)), None, &TO_THE_END);
         for (total, before) in next.simulations.iter_mut().zip(minimum.found.simulations) {
             *total += before;
         }

@@ -67,11 +67,36 @@ pub struct Piece {
     pub residuals: Vec<f64>,
 }
 
-/// How the start of a window follows the parameters: from where, by how much more, by how much per variable.
+/// How the start of a window follows the parameters: from where, by how much more, by how much per variable;
+/// and what the window's misfit was there.
 #[derive(Debug, Clone)]
 pub(super) struct Lead {
+    pub(super) was: [f64; START],
+    pub(super) misfit: f64,
     pub(super) start: [f64; START],
     pub(super) by: DMatrix<f64>,
+}
+
+impl Lead {
+    /// A start that does not move.
+    pub(super) fn staying(start: [f64; START], variables: usize) -> Self {
+        Self { was: start, misfit: f64::INFINITY, start, by: DMatrix::zeros(START, variables) }
+    }
+
+    /// The start at the variables `x`, where the lead was taken at `x_0`.
+    fn at(&self, x: &[f64], x_0: &[f64]) -> [f64; START] {
+        let more = |j: usize| -> f64 {
+            x.iter().zip(x_0).enumerate().map(|(i, (x, x_0))| self.by[(j, i)] * (x - x_0)).sum()
+        };
+        std::array::from_fn(|j| self.start[j] + more(j))
+    }
+}
+
+impl Piece {
+    /// The sum of its squared residuals [1].
+    pub(super) fn misfit(&self) -> f64 {
+        self.residuals.iter().map(|r| r * r).sum()
+    }
 }
 
 /// A window's derivatives, its start projected out.
@@ -257,7 +282,7 @@ impl Problem<'_> {
         }
         let n = jacobian.nrows();
         if self.data.force.is_some() {
-            let lead = Lead { start: piece.start, by: DMatrix::zeros(START, self.free.len()) };
+            let lead = Lead::staying(piece.start, self.free.len());
             return Slopes { jacobian: jacobian.columns(0, self.free.len()).into_owned(), lead };
         }
         for (i, spread) in window.spread.iter().enumerate() {
@@ -278,7 +303,8 @@ impl Problem<'_> {
         let more = scaled(&inverse * (q.transpose() * residuals));
         let by = scaled(&inverse * &along);
         let start = std::array::from_fn(|i| piece.start[i] + more[(i, 0)]);
-        Slopes { jacobian: by_x - q * along, lead: Lead { start, by } }
+        let lead = Lead { was: piece.start, misfit: piece.misfit(), start, by };
+        Slopes { jacobian: by_x - q * along, lead }
     }
 
     fn columns<const P: usize>(
@@ -359,17 +385,15 @@ impl Problem<'_> {
             .par_iter()
             .enumerate()
             .map(|(w, window)| {
-                let start = at.map_or(window.start, |(x_0, leads)| {
-                    let lead = &leads[w];
-                    let mut start = lead.start;
-                    for (i, (x, x_0)) in x.iter().zip(x_0).enumerate() {
-                        for (j, start) in start.iter_mut().enumerate() {
-                            *start += lead.by[(j, i)] * (x - x_0);
-                        }
-                    }
-                    start
-                });
-                self.piece(x, window, start)
+                let Some((x_0, leads)) = at else { return self.piece(x, window, window.start) };
+                let lead = &leads[w];
+                let led = self.piece(x, window, lead.at(x, x_0));
+                if led.misfit() <= lead.misfit {
+                    return led;
+                }
+                // Where friction holds, or soon will, a start is followed badly by a straight line.
+                let stayed = self.piece(x, window, lead.was);
+                if stayed.misfit() < led.misfit() { stayed } else { led }
             })
             .collect()
     }

@@ -123,20 +123,23 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_, '_> {
     }
 }
 
-/// Searches from `x` for the smallest misfit, moving all variables but the `fixed` one.
+/// Searches from `x` for the smallest misfit, moving all variables but the `fixed` one. The windows start where
+/// they did in `pieces` of a search nearby, or, if there are none, as they were seen.
 pub fn search(
     problem: &Problem<'_>,
-    x: &[f64],
+    (x, pieces): (&[f64], Option<&[Piece]>),
     fixed: Option<usize>,
     patience: &Patience,
 ) -> Found {
+    let stays = |piece: &Piece| Lead::staying(piece.start, x.len());
+    let at = pieces.map(|pieces| (x.to_vec(), pieces.iter().map(stays).collect()));
     let moving: Vec<usize> = (0..x.len()).filter(|i| Some(*i) != fixed).collect();
     let mut search = Search {
         problem,
         x: x.to_vec(),
         moving,
         pieces: Vec::new(),
-        at: RefCell::new(None),
+        at: RefCell::new(at),
         simulations: 0,
         derivatives: Cell::new(0),
     };

@@ -49,7 +49,8 @@ pub(super) fn best(problem: &Problem<'_>, options: &Options, other: Option<&[f64
         }
         all.push(x);
     }
-    let looks: Vec<Found> = all.par_iter().map(|x| search(problem, x, None, &LOOK)).collect();
+    let looks: Vec<Found> =
+        all.par_iter().map(|x| search(problem, (x, None), None, &LOOK)).collect();
     let spent = looks
         .iter()
         .fold([0, 0], |sum: [usize; 2], f| [sum[0] + f.simulations[0], sum[1] + f.simulations[1]]);
@@ -66,7 +67,7 @@ pub(super) fn best(problem: &Problem<'_>, options: &Options, other: Option<&[f64
             simulations: spent,
         };
     };
-    let mut found = search(problem, &best.x, None, &TO_THE_END);
+    let mut found = search(problem, (&best.x, Some(&best.pieces)), None, &TO_THE_END);
     for (total, before) in found.simulations.iter_mut().zip(spent) {
         *total += before;
     }

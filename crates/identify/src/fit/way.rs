@@ -41,7 +41,7 @@ pub(super) fn best_way<'a>(
         return Ok((problem, found, Way::Windows));
     }
     let by_windows = weighed(windows, options)?;
-    if mean_of(&search::search(&whole, &by_windows.1.x, None, &A_GLANCE)) > HOPELESS {
+    if mean_of(&search::search(&whole, (&by_windows.1.x, None), None, &A_GLANCE)) > HOPELESS {
         return Ok((by_windows.0, by_windows.1, Way::Windows));
     }
     let single = starts::best(&whole, options, Some(&by_windows.1.x));
@@ -50,7 +50,7 @@ pub(super) fn best_way<'a>(
         return Ok((problem, found, Way::OneRun));
     }
     // A single run sees more than windows do, and may have found the better minimum.
-    let again = search::search(&by_windows.0, &single.x, None, &TO_THE_END);
+    let again = search::search(&by_windows.0, (&single.x, None), None, &TO_THE_END);
     let found = if again.misfit < by_windows.1.misfit { again } else { by_windows.1 };
     Ok((by_windows.0, found, Way::Windows))
 }
@@ -89,7 +89,8 @@ fn reweighed(problem: Problem<'_>, found: Found) -> (Problem<'_>, Found) {
             break;
         }
         problem = Problem { weights, ..problem };
-        found = search::search(&problem, &found.x, None, &TO_THE_END);
+        let from = (found.x.as_slice(), Some(found.pieces.as_slice()));
+        found = search::search(&problem, from, None, &TO_THE_END);
     }
     (problem, found)
 }
