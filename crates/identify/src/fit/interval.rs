@@ -22,8 +22,8 @@ pub(super) struct Spread {
     pub variance: f64,
     /// Covariance of the fit's variables with white residuals, s² (JᵀJ)⁻¹.
     pub covariance: DMatrix<f64>,
-    /// By what the standard error of each variable grows because neighbouring residuals are alike; 1 if they
-    /// are not [1].
+    /// By what the standard error of each variable grows because neighbouring residuals are alike, or those larger
+    /// on which it depends most; 1 if they are not [1].
     pub inflation: Vec<f64>,
     /// The correlation of neighbouring residuals of each channel, the mean over them [1].
     pub neighbours: f64,
@@ -38,16 +38,17 @@ pub(super) fn spread(problem: &Problem<'_>, found: &Found, local: &Local) -> Spr
     let variance = found.misfit / (samples.saturating_sub(unknown)).max(1) as f64;
     let inverse = inverse(&local.gauss);
     let neighbours = neighbours(problem, found);
-    let mut inflation = vec![1.0; n];
-    // Below this the correlation is what white residuals show by chance.
-    if neighbours > 3.0 / (samples as f64).sqrt() {
-        let (scores, few) = scores(found, local);
-        let robust = &inverse * scores * &inverse;
-        for (i, grows) in inflation.iter_mut().enumerate() {
-            let plain = variance * inverse[(i, i)];
-            *grows = (few * (robust[(i, i)] / plain).sqrt()).max(1.0);
-        }
-    }
+    let (scores, few, stretches) = scores(found, local);
+    let robust = &inverse * scores * &inverse;
+    // Below these what is found is what white residuals of one variance show by chance.
+    let alike = neighbours > 3.0 / (samples as f64).sqrt();
+    let chance = 1.0 + (2.0 / stretches).sqrt();
+    let inflation = (0..n)
+        .map(|i| {
+            let grows = robust[(i, i)] / (variance * inverse[(i, i)]);
+            if alike || grows > chance { (few * grows.sqrt()).max(1.0) } else { 1.0 }
+        })
+        .collect();
     Spread { variance, covariance: inverse * variance, inflation, neighbours }
 }
 
@@ -81,10 +82,11 @@ fn neighbours(problem: &Problem<'_>, found: &Found) -> f64 {
 }
 
 /// Σ g gᵀ over stretches of the record, g the part of the half gradient of one stretch: what stands for JᵀJ where
-/// residuals of one stretch are alike; and what a standard error from so few stretches is to be multiplied by.
+/// residuals of one stretch are alike; what a standard error from so few stretches is to be multiplied by, and how
+/// many are free.
 ///
 /// A window is a stretch; of few windows there are [`STRETCHES`] stretches in all.
-fn scores(found: &Found, local: &Local) -> (DMatrix<f64>, f64) {
+fn scores(found: &Found, local: &Local) -> (DMatrix<f64>, f64, f64) {
     let n = found.x.len();
     let rows: usize = found.pieces.iter().map(|p| p.residuals.len()).sum();
     let long = if found.pieces.len() >= STRETCHES / 2 { rows } else { rows.div_ceil(STRETCHES) };
@@ -102,7 +104,7 @@ fn scores(found: &Found, local: &Local) -> (DMatrix<f64>, f64) {
     // The quantile of Student's distribution against the normal one, to first order in 1/ν.
     let free = f64::from((count - 1).max(1));
     let student = 1.0 + (NORMAL * NORMAL + 1.0) / (4.0 * free);
-    (sum, student * ((free + 1.0) / free).sqrt())
+    (sum, student * ((free + 1.0) / free).sqrt(), free)
 }
 
 /// Into how many stretches a record of few windows is cut.

@@ -19,6 +19,7 @@ pub mod problem;
 pub mod search;
 mod starts;
 mod way;
+mod weights;
 pub mod window;
 
 pub use data::{Data, Seen};

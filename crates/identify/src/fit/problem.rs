@@ -1,5 +1,6 @@
 //! The misfit of a model to a record, and how it changes with every free parameter.
 
+pub use super::weights::Weights;
 use super::{
     binding::{Free, Scale, given, model},
     data::Data,
@@ -39,21 +40,6 @@ pub struct Problem<'a> {
     pub weights: Weights,
     /// The steps' tolerance, of the spans of displacement and velocity [1].
     pub tolerance: f64,
-}
-
-/// The standard deviation that a residual of each channel is divided by, in the channel's unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weights {
-    /// Of the displacement.
-    pub displacement: f64,
-    /// Of the velocity.
-    pub velocity: f64,
-    /// Of the input that the controller makes.
-    pub input: f64,
-    /// Of the force under an imposed motion.
-    pub force: f64,
-    /// Of the two load cells.
-    pub loads: [f64; 2],
 }
 
 /// One window, simulated.

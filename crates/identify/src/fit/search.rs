@@ -52,7 +52,7 @@ const SLANTED: f64 = 0.3;
 /// The first step, of the variables' size. Those of P6 were 1 at their nominal values: with longer first steps
 /// one search in five, from starts within 30 % of the truth, jumped to where no bristle or no Stribeck effect
 /// is left, and ended in another minimum.
-const FIRST_STEP: f64 = 0.1;
+const FIRST_STEP: f64 = 0.03;
 
 struct Search<'p, 'd> {
     problem: &'p Problem<'d>,

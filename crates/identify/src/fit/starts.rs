@@ -10,6 +10,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
+/// So many of the first looks are followed to the end: the best one after a look is not always the best at last.
+const FOLLOWED: usize = 2;
+
 /// A first look from each start.
 const LOOK: Patience = Patience { misfit: 1.0, simulations: 12 };
 
@@ -54,22 +57,23 @@ pub(super) fn best(problem: &Problem<'_>, options: &Options, other: Option<&[f64
     let spent = looks
         .iter()
         .fold([0, 0], |sum: [usize; 2], f| [sum[0] + f.simulations[0], sum[1] + f.simulations[1]]);
-    let best = looks
-        .into_iter()
-        .filter(|f| f.end != End::NoMotion)
-        .min_by(|a, b| a.misfit.total_cmp(&b.misfit));
-    let Some(best) = best else {
-        return Found {
+    let mut looks: Vec<Found> = looks.into_iter().filter(|f| f.end != End::NoMotion).collect();
+    looks.sort_by(|a, b| a.misfit.total_cmp(&b.misfit));
+    looks.truncate(FOLLOWED);
+    let ends: Vec<Found> = looks
+        .par_iter()
+        .map(|look| search(problem, (&look.x, Some(&look.pieces)), None, &TO_THE_END))
+        .collect();
+    let all_spent =
+        ends.iter().fold(spent, |sum, f| [sum[0] + f.simulations[0], sum[1] + f.simulations[1]]);
+    match ends.into_iter().min_by(|a, b| a.misfit.total_cmp(&b.misfit)) {
+        Some(best) => Found { simulations: all_spent, ..best },
+        None => Found {
             x: first,
             misfit: f64::INFINITY,
             pieces: Vec::new(),
             end: End::NoMotion,
             simulations: spent,
-        };
-    };
-    let mut found = search(problem, (&best.x, Some(&best.pieces)), None, &TO_THE_END);
-    for (total, before) in found.simulations.iter_mut().zip(spent) {
-        *total += before;
+        },
     }
-    found
 }

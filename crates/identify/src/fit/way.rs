@@ -3,6 +3,7 @@
 use super::{
     FitError, Options, Way, blocks,
     gap::{residuals, weights_of},
+    newton,
     problem::Problem,
     search::{self, End, Found, Patience, TO_THE_END},
     starts,
@@ -14,6 +15,9 @@ const AS_GOOD: f64 = 2.0;
 
 /// A single run that leaves so much more than the noise after a first look is given up [1].
 const HOPELESS: f64 = 1e4;
+
+/// The windows of a first search, of the length of the others.
+const SHORT: f64 = 1.0 / 8.0;
 
 /// The first look at a single run.
 const A_GLANCE: Patience = Patience { misfit: 1.0, simulations: 8 };
@@ -32,15 +36,19 @@ pub(super) fn best_way<'a>(
         None
     };
     if let Some(way) = one {
-        let (problem, found) = weighed(whole, options)?;
+        let (problem, found) = weighed(whole, options, None)?;
         return Ok((problem, found, way));
     }
     let windows = Problem { windows: blocks::blocks(data, options.window), ..whole.clone() };
     if options.window.is_some() {
-        let (problem, found) = weighed(windows, options)?;
+        let (problem, found) = weighed(windows, options, None)?;
         return Ok((problem, found, Way::Windows));
     }
-    let by_windows = weighed(windows, options)?;
+    // Short windows come to the neighbourhood of the minimum where long ones meet others on the way.
+    let length = (data.time[data.time.len() - 1] - data.time[0]) / windows.windows.len() as f64;
+    let short = Problem { windows: blocks::blocks(data, Some(SHORT * length)), ..whole.clone() };
+    let first = starts::best(&short, options, None);
+    let by_windows = weighed(windows.clone(), options, Some(&first.x))?;
     if mean_of(&search::search(&whole, (&by_windows.1.x, None), None, &A_GLANCE)) > HOPELESS {
         return Ok((by_windows.0, by_windows.1, Way::Windows));
     }
@@ -51,8 +59,12 @@ pub(super) fn best_way<'a>(
     }
     // A single run sees more than windows do, and may have found the better minimum.
     let again = search::search(&by_windows.0, (&single.x, None), None, &TO_THE_END);
-    let found = if again.misfit < by_windows.1.misfit { again } else { by_windows.1 };
-    Ok((by_windows.0, found, Way::Windows))
+    if again.misfit >= by_windows.1.misfit {
+        return Ok((by_windows.0, by_windows.1, Way::Windows));
+    }
+    // The weights were those of the worse minimum.
+    let (problem, found) = reweighed(windows, again);
+    Ok((problem, found, Way::Windows))
 }
 
 /// The mean squared weighed residual [1].
@@ -61,8 +73,12 @@ fn mean_of(found: &Found) -> f64 {
 }
 
 /// The best of several starts, then once more with each channel weighed by what its residuals are.
-fn weighed<'a>(problem: Problem<'a>, options: &Options) -> Result<(Problem<'a>, Found), FitError> {
-    let found = starts::best(&problem, options, None);
+fn weighed<'a>(
+    problem: Problem<'a>,
+    options: &Options,
+    other: Option<&[f64]>,
+) -> Result<(Problem<'a>, Found), FitError> {
+    let found = starts::best(&problem, options, other);
     if found.end == End::NoMotion {
         return Err(FitError::NoMotion);
     }
@@ -72,7 +88,8 @@ fn weighed<'a>(problem: Problem<'a>, options: &Options) -> Result<(Problem<'a>, 
 /// Where a channel's residuals are larger than its noise the model lacks something there, and the channel counts
 /// for less; how much less follows from the minimum, and so again until it no longer changes.
 fn reweighed(problem: Problem<'_>, found: Found) -> (Problem<'_>, Found) {
-    let (mut problem, mut found) = (problem, found);
+    let mut found = newton::settle(&problem, found, None);
+    let mut problem = problem;
     let noise = problem.weights;
     for _ in 0..REWEIGHED {
         let rms = residuals(&problem, &found);
@@ -90,10 +107,12 @@ fn reweighed(problem: Problem<'_>, found: Found) -> (Problem<'_>, Found) {
         }
         problem = Problem { weights, ..problem };
         let from = (found.x.as_slice(), Some(found.pieces.as_slice()));
-        found = search::search(&problem, from, None, &TO_THE_END);
+        let again = search::search(&problem, from, None, &TO_THE_END);
+        // Weights follow from a minimum, and from nothing else.
+        found = newton::settle(&problem, again, None);
     }
     (problem, found)
 }
 
 /// So many times the channels are weighed anew.
-const REWEIGHED: usize = 4;
+const REWEIGHED: usize = 8;
