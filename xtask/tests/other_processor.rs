@@ -21,6 +21,9 @@ fn the_tables_of_one_processor_pass_the_check_on_another() {
     }
     let all: Vec<(&str, &str)> = all.iter().map(|(n, t)| (n.as_str(), t.as_str())).collect();
     let project = Project::new(&all);
+    // The records and rigs of the fits.
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data");
+    copy(&data, &project.path().join("data"));
     let ran = project.run(&["reproduce"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
     let output = project
@@ -29,4 +32,18 @@ fn the_tables_of_one_processor_pass_the_check_on_another() {
         .output()
         .expect("the built program");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// Copies a folder and all that is in it.
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).expect("a folder");
+    for entry in fs::read_dir(from).expect("a folder to copy") {
+        let path = entry.expect("an entry").path();
+        let there = to.join(path.file_name().expect("a name"));
+        if path.is_dir() {
+            copy(&path, &there);
+        } else {
+            fs::copy(&path, &there).expect("a copy");
+        }
+    }
 }
