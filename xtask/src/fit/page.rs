@@ -44,6 +44,7 @@ fn opening(rig: &Rig, fit: &Fit) -> String {
     let moved = fit.parameters.iter().filter(|p| p.moved).count();
     let open = fit.parameters.iter().filter(|p| !p.identified).count();
     let open = match open {
+        _ if fit.end != End::Converged => String::new(),
         0 => String::new(),
         1 => "; 1 is not identified by this record".to_owned(),
         n => format!("; {n} are not identified by this record"),
@@ -114,7 +115,7 @@ fn interval(p: &Estimate) -> String {
 
 /// What this record leaves open.
 fn cannot_tell(rig: &Rig, fit: &Fit) -> FitPart {
-    let list: Vec<String> = fit.parameters.iter().filter_map(|p| untold(rig, p)).collect();
+    let list = untold(rig, fit);
     let asked = fit.parameters.iter().any(|p| p.interval.iter().any(Option::is_some));
     let text = if list.is_empty() && !asked {
         words(&["Not asked: intervals by profile likelihood, which tell it, were left away."])

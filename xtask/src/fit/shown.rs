@@ -103,7 +103,7 @@ pub(super) fn lines(rig: &Rig, fit: &Fit, held: Option<&Held>) -> Vec<String> {
         "parameter", "given", "found", "± s.e.", "95 % interval", "unit"
     ));
     lines.extend(fit.parameters.iter().map(|p| row(rig, p)));
-    lines.extend(fit.parameters.iter().filter_map(|p| untold(rig, p)));
+    lines.extend(untold(rig, fit));
     lines.extend(correlated(fit));
     lines.push(String::new());
     lines.extend(table("gap", rig, &fit.gap));
@@ -166,8 +166,20 @@ fn row(rig: &Rig, p: &Estimate) -> String {
     )
 }
 
+/// What the record cannot tell, parameter by parameter.
+pub(super) fn untold(rig: &Rig, fit: &Fit) -> Vec<String> {
+    if fit.end == End::Converged {
+        return fit.parameters.iter().filter_map(|p| open(rig, p)).collect();
+    }
+    vec![
+        "no interval is given, for this is no minimum: try more starts (--starts 8), or values nearer to what you \
+         expect in the rig file"
+            .to_owned(),
+    ]
+}
+
 /// What the record cannot tell of a parameter.
-pub(super) fn untold(rig: &Rig, p: &Estimate) -> Option<String> {
+fn open(rig: &Rig, p: &Estimate) -> Option<String> {
     if p.identified {
         return None;
     }
