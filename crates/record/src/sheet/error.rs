@@ -8,7 +8,7 @@ use std::fmt::Write;
 #[derive(Debug, thiserror::Error)]
 pub enum SheetError {
     /// The operating system refused.
-    #[error("{what}: {source}")]
+    #[error("{what}")]
     Disk {
         /// What was tried, as in "cannot open".
         what: &'static str,

@@ -140,8 +140,8 @@ impl Score {
                 row.identified,
                 100.0 * row.share(row.profile),
                 100.0 * row.share(row.asymptotic),
-                row.errors / row.identified.max(1) as f64,
-                row.squares / row.identified.max(1) as f64,
+                row.error(),
+                row.chi(),
             );
         }
         for breach in self.breaches() {
@@ -163,7 +163,21 @@ impl Tally {
 
     /// What share of the intervals `held` is [1].
     fn share(&self, held: usize) -> f64 {
-        held as f64 / self.identified.max(1) as f64
+        held as f64 / self.intervals()
+    }
+
+    /// The mean standard error, relative to the value [1].
+    fn error(&self) -> f64 {
+        self.errors / self.intervals()
+    }
+
+    /// The mean square of what the value is off by, in standard errors [1].
+    fn chi(&self) -> f64 {
+        self.squares / self.intervals()
+    }
+
+    fn intervals(&self) -> f64 {
+        self.identified.max(1) as f64
     }
 }
 
@@ -187,7 +201,7 @@ pub(super) fn csv(scores: &[Score], command: &str) -> String {
                 row.share(row.profile),
                 row.share(row.asymptotic),
                 row.identified as f64 / row.records.max(1) as f64,
-                row.errors / row.identified.max(1) as f64,
+                row.error(),
                 score.unconverged,
             );
         }
