@@ -211,3 +211,21 @@ fn bound(
     }
     outside.map_or(Side::Nowhere, |_| Side::At(found.x[i] + sign * away))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{CHI_SQUARED, NORMAL};
+
+    #[test]
+    fn the_two_quantiles_are_one() {
+        // χ² with one degree of freedom is the square of a normal variable.
+        assert!((CHI_SQUARED - NORMAL * NORMAL).abs() < 1e-14);
+        // The normal one by Simpson's rule.
+        let density = |x: f64| (-0.5 * x * x).exp() / (2.0 * std::f64::consts::PI).sqrt();
+        let n = 2000;
+        let h = NORMAL / f64::from(n);
+        let weight = |i: i32| if i == 0 || i == n { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
+        let within: f64 = (0..=n).map(|i| weight(i) * density(f64::from(i) * h)).sum();
+        assert!((2.0 * within * h / 3.0 - 0.95).abs() < 1e-12);
+    }
+}

@@ -37,3 +37,47 @@ impl Problem<'_> {
         (residuals, jacobian)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        Rig,
+        fit::data::{Data, Seen},
+        rig::Hold,
+    };
+
+    const RIG: &str = include_str!("../../tests/rigs/gearbox.toml");
+
+    #[test]
+    fn cells_that_show_the_springs_leave_nothing() {
+        let mut rig = Rig::parse(RIG).expect("a rig");
+        let angle: Vec<f64> = (0..20).map(|i| 0.3 * f64::from(i).sin()).collect();
+        let value = |key: &str| rig.value(key).expect("a parameter");
+        let (r, k_1, k_2) = (value("radius"), value("k_1"), value("k_2"));
+        // By hand: a positive angle draws the first spring out and lets the second in.
+        let first: Vec<f64> = angle.iter().map(|a| value("f_10") + k_1 * r * a).collect();
+        let second: Vec<f64> = angle.iter().map(|a| value("f_20") - k_2 * r * a).collect();
+        let data = Data {
+            time: (0..20).map(|i| 0.01 * f64::from(i)).collect(),
+            input: vec![0.0; 20],
+            hold: Hold::Linear,
+            displacement: Some(Seen::new("angle", angle.clone(), 1e-3)),
+            velocity: None,
+            force: None,
+            loads: Some([Seen::new("force_1", first, 1e-4), Seen::new("force_2", second, 1e-4)]),
+            reference: Vec::new(),
+            added: Vec::new(),
+        };
+        rig.free = vec!["k_1".to_owned(), "k_2".to_owned()];
+        let problem = crate::fit::problem(&rig, &data).expect("a problem");
+        let x = crate::fit::starts::nominal(&problem);
+        let (residuals, slopes) = problem.loads(&x);
+        assert!(residuals.iter().all(|r| r.abs() < 1e-9), "{residuals:?}");
+        // One hundredth more of k₂ in its logarithm, in the second cell alone.
+        let (moved, _) = problem.loads(&[x[0], x[1] + 0.01]);
+        for (row, (moved, slope)) in moved.iter().zip(slopes.column(1).iter()).enumerate() {
+            assert!((moved - 0.01 * slope).abs() <= 0.006 * moved.abs(), "row {row}");
+            assert!(row >= 20 || *moved == 0.0);
+        }
+    }
+}
