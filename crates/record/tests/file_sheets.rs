@@ -259,6 +259,15 @@ fn a_pipe_a_folder_and_a_device_are_refused_without_waiting() {
 }
 
 #[test]
+fn why_the_system_refused_is_told_and_told_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let error = read_sheet(&folder.path().join("none.csv")).unwrap_err();
+    let system = fs::metadata(folder.path().join("none.csv")).unwrap_err().to_string();
+    assert!(error.to_string().contains(&system), "{error}");
+    assert!(std::error::Error::source(&error).is_none(), "a chain of errors tells it again");
+}
+
+#[test]
 fn a_mat_file_read_as_text_is_refused_as_binary() {
     let text = read_csv(&fs::read(file("mat/plain.mat")).unwrap()[..]).unwrap_err().to_string();
     assert!(text.contains("binary data"), "{text}");

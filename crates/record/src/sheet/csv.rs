@@ -97,7 +97,7 @@ impl<R: Read> Records<R> {
                     let found = "a line, or a quoted cell that does not end, above 1 MiB";
                     return SheetError::cap(format!("line {start}"), found, "1 MiB a line");
                 }
-                SheetError::Disk { what: "cannot read", source: e.into() }
+                SheetError::Disk { what: "cannot read", reason: e.into() }
             })?;
             self.since.set(0);
             if !more {

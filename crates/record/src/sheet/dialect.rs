@@ -19,7 +19,7 @@ pub(crate) fn begin(mut input: impl Read) -> Result<(Vec<u8>, Dialect), SheetErr
         .by_ref()
         .take(LINE)
         .read_to_end(&mut head)
-        .map_err(|source| SheetError::Disk { what: "cannot read", source })?;
+        .map_err(|reason| SheetError::Disk { what: "cannot read", reason })?;
     if head.starts_with(b"\xEF\xBB\xBF") {
         head.drain(..3);
     }

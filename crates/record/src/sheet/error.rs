@@ -8,12 +8,12 @@ use std::fmt::Write;
 #[derive(Debug, thiserror::Error)]
 pub enum SheetError {
     /// The operating system refused.
-    #[error("{what}")]
+    #[error("{what}: {reason}")]
     Disk {
         /// What was tried, as in "cannot open".
         what: &'static str,
-        /// The system's own words.
-        source: std::io::Error,
+        /// The system's own words; part of the message, and so not told as its source once more.
+        reason: std::io::Error,
     },
     /// Content that is not what its format asks for.
     #[error("{place}: found {found}; expected {expected}")]

@@ -152,7 +152,7 @@ impl Sheet {
 ///
 /// Nothing but an ordinary file is opened: a pipe would wait for ever, a device never end.
 pub fn read_sheet(path: &Path) -> Result<Sheet, SheetError> {
-    let disk = |what| move |source| SheetError::Disk { what, source };
+    let disk = |what| move |reason| SheetError::Disk { what, reason };
     let about = std::fs::metadata(path).map_err(disk("cannot look at it"))?;
     if !about.is_file() {
         let found = kind(about.file_type());

@@ -44,7 +44,7 @@ pub fn read_parquet(mut input: impl Read + Seek) -> Result<Sheet, SheetError> {
                 let place = format!("column `{}`, row group {group}", shown(&name));
                 return Err(SheetError::content(place, what, "what the file's footer declares"));
             }
-            Err(Fault::Disk(source)) => return Err(disk(source)),
+            Err(Fault::Disk(reason)) => return Err(disk(reason)),
         }
     }
     if rows == 0 {
@@ -54,8 +54,8 @@ pub fn read_parquet(mut input: impl Read + Seek) -> Result<Sheet, SheetError> {
     Sheet::of_most(columns, skipped)
 }
 
-fn disk(source: std::io::Error) -> SheetError {
-    SheetError::Disk { what: "cannot read", source }
+fn disk(reason: std::io::Error) -> SheetError {
+    SheetError::Disk { what: "cannot read", reason }
 }
 
 fn damaged(found: &str, expected: &str) -> SheetError {

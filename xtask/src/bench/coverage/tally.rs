@@ -261,4 +261,14 @@ mod tests {
         assert!(text.starts_with("# cargo xtask bench coverage --seed 1\nmodel,"), "{text}");
         assert!(text.contains("coulomb,f_c,100,100,95,0.9500,0.9400,1.0000,"), "{text}");
     }
+
+    #[test]
+    fn errors_and_squares_are_told_as_means_over_the_intervals() {
+        let mut score = score(95);
+        (score.parameters[0].errors, score.parameters[0].squares) = (5.0, 90.0);
+        let text = csv(std::slice::from_ref(&score), "");
+        assert!(text.contains(",1.0000,5.00e-2,"), "{text}");
+        let words = score.words();
+        assert!(words.contains("standard error 5.0e-2, χ² 0.90"), "{words}");
+    }
 }
