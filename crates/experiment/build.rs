@@ -10,6 +10,9 @@ const COMPUTING: [&str; 5] = ["duhem", "integrate", "simulation", "record", "exp
 /// The crate that fits besides, and so decides the numbers of fits alone.
 const FITTING: &str = "identify";
 
+/// The crate that looks for what a model lacks besides, and so decides the numbers of searches alone.
+const SEARCHING: &str = "discover";
+
 fn main() -> Result<(), Box<dyn Error>> {
     let root = Path::new(&env::var("CARGO_MANIFEST_DIR")?).join("../..");
     let mut hash = Sha256::new();
@@ -27,7 +30,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo:rustc-env=DUHEM_SOURCES={}", text(hash.clone()));
     add(&mut hash, &root, &format!("crates/{FITTING}/src"))?;
     add(&mut hash, &root, &format!("crates/{FITTING}/Cargo.toml"))?;
-    println!("cargo:rustc-env=DUHEM_FIT_SOURCES={}", text(hash));
+    println!("cargo:rustc-env=DUHEM_FIT_SOURCES={}", text(hash.clone()));
+    add(&mut hash, &root, &format!("crates/{SEARCHING}/src"))?;
+    add(&mut hash, &root, &format!("crates/{SEARCHING}/Cargo.toml"))?;
+    println!("cargo:rustc-env=DUHEM_SEARCH_SOURCES={}", text(hash));
     Ok(())
 }
 

@@ -35,7 +35,7 @@ pub(crate) fn check_data(arguments: &CheckDataArgs) -> Result<Exit, Failure> {
     Ok(if problems > 0 { Exit::CheckFailed } else { Exit::Done })
 }
 
-fn count(seen: &Examination, severity: Severity) -> usize {
+pub(crate) fn count(seen: &Examination, severity: Severity) -> usize {
     seen.findings.iter().filter(|f| f.severity == severity).count()
 }
 
@@ -139,7 +139,7 @@ fn moves(motion: &Motion, rig: &Rig) -> String {
 }
 
 /// A finding in two lines.
-fn told(finding: &Finding, sheet: &Sheet, rig: Option<&Rig>) -> [String; 2] {
+pub(crate) fn told(finding: &Finding, sheet: &Sheet, rig: Option<&Rig>) -> [String; 2] {
     let mark = if finding.severity == Severity::Problem { "!" } else { "~" };
     let column = rig.and_then(|rig| rig.channels.get(&finding.channel)).map(|c| c.column.as_str());
     let column = column.filter(|c| *c != finding.channel).map(cut);

@@ -59,6 +59,7 @@ pub(crate) fn show(root: &Path, name: &str, as_json: bool) -> Result<Exit, Failu
         "format": record::FORMAT, "name": plan.name, "title": plan.title, "paper": plan.paper,
         "cases": plan.cases.len(),
         "fits": plan.fits.iter().map(|f| json!({ "name": f.name, "record": f.file, "free": f.rig.free_parameters() })).collect::<Vec<_>>(),
+        "discover": plan.discoveries.iter().map(|d| json!({ "name": d.name, "record": d.source.file, "free": d.source.rig.free_parameters() })).collect::<Vec<_>>(),
         "studies": studies.collect::<Vec<_>>(),
         "figures": plan.figures.iter().map(|f| &f.name).collect::<Vec<_>>(),
         "measures": plan.measures.iter().map(|m| &m.id).collect::<Vec<_>>(),

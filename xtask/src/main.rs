@@ -5,6 +5,7 @@ mod check_data;
 mod claims;
 mod cli;
 mod compare;
+mod discover;
 mod exit;
 mod fit;
 mod list;
@@ -52,6 +53,7 @@ fn run(cli: &Cli) -> Result<Exit, Failure> {
         Command::Bench(arguments) => bench::bench(&root, arguments),
         Command::Fit(arguments) => fit::fit(arguments),
         Command::Simulate(arguments) => fit::simulate(arguments),
+        Command::Discover(arguments) => discover::discover(arguments),
         Command::Compare(arguments) => compare::compare(&root, arguments),
         Command::Record(arguments) => synthetic::record(&root, arguments),
         Command::New { what } => new::new(&root, what),

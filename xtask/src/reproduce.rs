@@ -88,6 +88,10 @@ fn run_one(
         for (fit, done) in fits {
             output::note(&explain(&format!("fit {}", fit.name), (&done.key, &done.why)));
         }
+        let searches = plan.discoveries.iter().filter_map(|search| Some((search, search.done()?)));
+        for (search, done) in searches {
+            output::note(&explain(&format!("search {}", search.name), (&done.key, &done.why)));
+        }
         for case in &finished {
             output::note(&explain(&name(&case.record.row), (&case.key, &case.why)));
         }

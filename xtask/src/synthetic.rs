@@ -50,10 +50,10 @@ struct TruthFile<'a> {
 }
 
 /// The files of one record.
-struct Places {
-    record: PathBuf,
-    card: PathBuf,
-    truth: PathBuf,
+pub(crate) struct Places {
+    pub(crate) record: PathBuf,
+    pub(crate) card: PathBuf,
+    pub(crate) truth: PathBuf,
 }
 
 /// Makes a record, or lists the scenarios that have a name.
@@ -185,7 +185,8 @@ fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-fn write(places: &Places, made: &Made, command: String) -> Result<(), Failure> {
+/// Writes a record, its card, and its truth.
+pub(crate) fn write(places: &Places, made: &Made, command: String) -> Result<(), Failure> {
     let columns: Vec<(&str, &[f64])> =
         made.columns.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
     let folder = places.record.parent().unwrap_or(Path::new(""));
@@ -216,7 +217,8 @@ fn write(places: &Places, made: &Made, command: String) -> Result<(), Failure> {
     Ok(())
 }
 
-fn text(value: &impl Serialize) -> Result<String, Failure> {
+/// A value as TOML.
+pub(crate) fn text(value: &impl Serialize) -> Result<String, Failure> {
     toml::to_string_pretty(value).map_err(|e| Failure { exit: Exit::Bug, error: e.into() })
 }
 

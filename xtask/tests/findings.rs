@@ -220,8 +220,9 @@ fn the_winners_are_those_that_the_captions_name() {
 fn every_measure_has_a_second_parent_as_near_as_it_must_be() {
     for path in experiments() {
         for row in tables(&path).measures {
-            // What noise keeps from being known has its own bound: `findings_fit.rs`.
-            if row.code.contains("quantities/fit.rs") {
+            // What noise keeps from being known has its own bound: `findings_fit.rs`, `findings_hidden.rs`.
+            let of_a_record = ["quantities/fit.rs", "quantities/discovery.rs"];
+            if of_a_record.iter().any(|file| row.code.contains(file)) {
                 assert!(row.error.is_finite() && row.error >= 0.0, "{}: ± {}", row.id, row.error);
                 continue;
             }

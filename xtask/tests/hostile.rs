@@ -37,8 +37,13 @@ struct Bench {
 }
 
 /// The commands that read a record and a rig file.
-const COMMANDS: [&[&str]; 4] =
-    [&["fit", "--quick"], &["fit", "--method", "regression"], &["simulate"], &["check-data"]];
+const COMMANDS: [&[&str]; 5] = [
+    &["fit", "--quick"],
+    &["fit", "--method", "regression"],
+    &["simulate"],
+    &["discover"],
+    &["check-data"],
+];
 
 impl Bench {
     fn new(name: &str, record: &[u8], rig: &[u8]) -> Self {
@@ -212,7 +217,7 @@ fn a_rig_that_does_not_fit_its_record_is_refused_with_the_columns_there_are() {
 fn a_model_that_cannot_be_simulated_ends_in_words() {
     let stiff = RIG.replace("inertia = 1.0", "inertia = 1e-59");
     let bench = Bench::new("record.csv", record(400).as_bytes(), stiff.as_bytes());
-    for command in [&["fit", "--quick", "--window", "100"][..], &["simulate"]] {
+    for command in [&["fit", "--quick", "--window", "100"][..], &["simulate"], &["discover"]] {
         let ran = bench.run(command, "record.csv", "rig.toml");
         assert_eq!(ran.code, Some(4), "{command:?}: {ran:?}");
         let words = ["record.csv", "cannot be simulated"];
@@ -244,7 +249,7 @@ fn text_of_record_and_rig_is_shown_and_never_obeyed() {
         .replace("bench", title)
         .replace("\"x\"", "\"\\u001b[31mx\\u202e<script>alert(1)</script>\"");
     let bench = Bench::new("record.csv", text.as_bytes(), rig.as_bytes());
-    for command in &COMMANDS[..3] {
+    for command in &COMMANDS[..4] {
         let ran = bench.run(command, "record.csv", "rig.toml");
         assert_eq!(ran.code, Some(0), "{command:?}: {ran:?}");
         assert!(!format!("{}{}", ran.out, ran.err).contains(controls), "{command:?}: {ran:?}");
@@ -268,9 +273,12 @@ fn text_of_record_and_rig_is_shown_and_never_obeyed() {
 #[test]
 fn a_wrong_flag_is_a_wrong_use() {
     let bench = Bench::new("record.csv", record(400).as_bytes(), RIG.as_bytes());
-    for flags in
-        [&["fit", "--window", "-1"][..], &["fit", "--method", "magic"], &["simulate", "--windoww"]]
-    {
+    for flags in [
+        &["fit", "--window", "-1"][..],
+        &["fit", "--method", "magic"],
+        &["simulate", "--windoww"],
+        &["discover", "--seed", "-1"],
+    ] {
         let ran = bench.run(flags, "record.csv", "rig.toml");
         assert_eq!(ran.code, Some(2), "{flags:?}: {ran:?}");
     }

@@ -1,7 +1,7 @@
 //! The curves of figures: the exact answer's loops, and the steps that solvers took.
 
 use crate::{
-    fits,
+    discoveries, fits,
     plan::{Plan, Point, Study, control_name, solver_names},
     quantities::View,
     run::Finished,
@@ -38,10 +38,13 @@ pub(crate) fn curves(
     for figure in &plan.figures {
         for panel in &figure.panel {
             panels.push(axes(figure, panel));
-            let fit = plan.fits.iter().find(|f| Some(&f.name) == figure.study.as_ref());
-            let drawn = match (panel.show.as_str(), fit) {
-                (_, Some(fit)) => fits::series(fit, panel)?,
-                (show, None) => of_study(plan, (figure, panel), show, finished)?,
+            let named = |name: &String| Some(name) == figure.study.as_ref();
+            let fit = plan.fits.iter().find(|f| named(&f.name));
+            let search = plan.discoveries.iter().find(|d| named(&d.name));
+            let drawn = match (panel.show.as_str(), fit, search) {
+                (_, Some(fit), _) => fits::series(&fits::Runs::of_fit(fit)?, panel)?,
+                (_, None, Some(search)) => discoveries::series(search, panel)?,
+                (show, None, None) => of_study(plan, (figure, panel), show, finished)?,
             };
             for (series, points) in drawn {
                 let row = |(x, y)| CurveRow {

@@ -9,6 +9,7 @@
 pub mod checks;
 mod compare;
 mod curves;
+mod discoveries;
 mod drift;
 mod error;
 mod fits;
@@ -28,8 +29,9 @@ pub use drift::{Drift, drift};
 pub use error::ExperimentError;
 pub use judge::four_digits;
 pub use plan::{
-    Answers, Case, Claim, Decision, Exact, Fit, Fitted, Irreproducible, Measure, Plan, Point,
-    Study, Subject, control_name, corners_name,
+    Answers, Case, Claim, Decision, Discovered, Discovery, Exact, Fit, Fitted, Hidden,
+    Irreproducible, Measure, Plan, Point, Source, Study, Subject, Whose, control_name,
+    corners_name,
 };
 pub use run::{Finished, Options, Progress, WATCHDOG, Why, run};
 pub use summary::summary;

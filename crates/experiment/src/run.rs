@@ -1,7 +1,7 @@
 //! Every case run or found in the store, in parallel, none able to stop the others.
 
 use crate::{
-    ExperimentError, compare, fits, own,
+    ExperimentError, compare, discoveries, fits, own,
     plan::{Case, Plan, Study, control, corners_name},
 };
 use integrate::Limits;
@@ -84,6 +84,7 @@ pub fn run(
         .map_err(|e| ExperimentError::Environment(e.to_string()))?;
     pool.install(|| solve_plants(plan))?;
     pool.install(|| fits::run(plan, options))?;
+    pool.install(|| discoveries::run(plan, options))?;
     let total = plan.cases.len();
     let (done, reused) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let one = |index: usize| {

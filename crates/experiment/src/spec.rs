@@ -21,6 +21,9 @@ pub struct Spec {
     /// The fits to records.
     #[serde(default)]
     pub fit: Vec<FitSpec>,
+    /// The searches for what a model lacks.
+    #[serde(default)]
+    pub discover: Vec<DiscoverSpec>,
     /// The figures.
     #[serde(default)]
     pub figure: Vec<FigureSpec>,
@@ -110,6 +113,27 @@ pub struct FitSpec {
     pub seed: Option<u32>,
     /// Whether the other friction models are fitted, too; so if not said.
     pub models: Option<bool>,
+}
+
+/// One search for what the model of a rig lacks. Files are named as seen from the experiment's folder.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DiscoverSpec {
+    /// Its name; panels, measures and checks call it their `study`.
+    pub name: String,
+    /// Its title, for the report.
+    pub title: String,
+    /// What is to be known of it, for the report.
+    #[serde(default)]
+    pub text: String,
+    /// The record.
+    pub record: String,
+    /// The rig file.
+    pub rig: String,
+    /// The file that says what was hidden in a synthetic record; it is compared with, and never seen by the search.
+    pub truth: Option<String>,
+    /// The seed of the perturbations by which the floor is found.
+    pub seed: Option<u32>,
 }
 
 /// A case whose steps are kept for a figure, at every point of the sweep.

@@ -4,10 +4,13 @@ use crate::{
     ExperimentError, Finished, Plan,
     compare::largest_response,
     curves, judge, orders,
-    plan::{Answers, Fit, Study, solver_names},
+    plan::{Answers, Discovery, Fit, Study, solver_names},
     spec::FigureSpec,
 };
-use record::{AboutRow, CaseRow, FigureRow, FitRecord, FitRow, MeasureRow, StudyRow, Summary};
+use record::{
+    AboutRow, CaseRow, DiscoveryRecord, DiscoveryRow, FigureRow, FitRecord, FitRow, MeasureRow,
+    StudyRow, Summary,
+};
 
 /// All tables of the experiment.
 pub fn summary(plan: &Plan, finished: &[Finished]) -> Result<Summary, ExperimentError> {
@@ -26,7 +29,9 @@ pub fn summary(plan: &Plan, finished: &[Finished]) -> Result<Summary, Experiment
     let studies = plan.studies.iter().map(study_row).collect::<Result<_, _>>();
     let fits = plan.fits.iter().map(Fit::found).collect::<Result<Vec<_>, _>>();
     let fits: Vec<FitRecord> = fits.map_err(ExperimentError::Bug)?.into_iter().cloned().collect();
-    Ok(Summary {
+    let found = plan.discoveries.iter().map(Discovery::found).collect::<Result<Vec<_>, _>>();
+    let found = found.map_err(ExperimentError::Bug)?;
+    let mut summary = Summary {
         name: plan.name.clone(),
         about: about(plan),
         studies: studies.map_err(ExperimentError::Bug)?,
@@ -41,7 +46,23 @@ pub fn summary(plan: &Plan, finished: &[Finished]) -> Result<Summary, Experiment
         parameters: fits.iter().flat_map(|f| f.parameters.clone()).collect(),
         models: fits.iter().flat_map(|f| f.models.clone()).collect(),
         misfits: fits.iter().flat_map(|f| f.misfits.clone()).collect(),
-    })
+        ..Summary::default()
+    };
+    for record in found {
+        add(&mut summary, record);
+    }
+    Ok(summary)
+}
+
+/// Adds the rows of a search.
+fn add(summary: &mut Summary, record: &DiscoveryRecord) {
+    let row = &record.row;
+    summary.discoveries.push(DiscoveryRow { text: folded(&row.text), ..row.clone() });
+    summary.effects.extend(record.effects.iter().cloned());
+    summary.gaps.extend(record.gaps.iter().cloned());
+    summary.ranking.extend(record.ranking.iter().cloned());
+    summary.shares.extend(record.shares.iter().cloned());
+    summary.parameters.extend(record.parameters.iter().cloned());
 }
 
 /// The fit's row, its text as the others' are.

@@ -136,8 +136,11 @@ fn fitted(rig: &Rig, data: &Data) -> (Found, Vec<f64>) {
         closed_loop: false,
         memory: 1.0 / 1e3,
         counts: Vec::new(),
+        priors: Vec::new(),
         weights,
+        spread: &[],
         tolerance: TOLERANCE,
+        slopes: 0.0,
     };
     let found = newton::settle(&problem, search(&problem, (&x, None), None, &TO_THE_END), None);
     let values = (0..found.x.len()).map(|i| problem.value(i, &found.x)).collect();

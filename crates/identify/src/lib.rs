@@ -7,6 +7,7 @@
 //! columns as channels in SI units.
 
 pub mod doctor;
+pub mod effects;
 pub mod export;
 pub mod fit;
 pub mod march;

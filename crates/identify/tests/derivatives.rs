@@ -84,7 +84,7 @@ fn replayed(rig: &Rig, name: &str, time: &[f64], motion: &Motion) -> Vec<f64> {
         Start { q: 0.05.into(), v: 0.2.into(), z: vec![0.01.into(); model.contact.states()] };
     let drive = Drive::Recorded { values: &u, hold: Hold::Linear };
     let mut by = Vec::new();
-    replay(&model, &drive, &motion.tape, &start, &mut |_, q, _, _| {
+    replay(&model, (&drive, time), &motion.tape, &start, &mut |_, q, _, _| {
         by.push(q.eps.0.map_or(0.0, |eps| eps[0]));
     });
     by

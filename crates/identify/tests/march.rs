@@ -21,7 +21,7 @@ fn driven(plant: &Plant, contact: Contact<f64>, sigma_2: f64) -> Model<f64> {
         damping: 0.0,
         gravity: 0.0,
     };
-    Model { balance, contact, sigma_2, offset: 0.0 }
+    Model { balance, contact, sigma_2, offset: 0.0, radius: 1.0, effects: Vec::new() }
 }
 
 fn go(model: &Model<f64>, values: &[f64], time: &[f64], (q, tight): (f64, f64)) -> Motion {

@@ -185,8 +185,43 @@ const WRONG: &[(&str, &str, &str)] = &[
     ),
     (
         "[fit]",
-        "[[effect]]\nname = \"cogging\"\n[fit]",
-        "line 25: unknown effect \"cogging\": none are known to this version",
+        "[[effect]]\nname = \"coging\"\n[fit]",
+        "line 25: unknown effect \"coging\": expected one of current_bias, coulomb_asymmetry, ",
+    ),
+    (
+        "[fit]",
+        "[[effect]]\nname = \"map-1\"\n[fit]",
+        "line 25: unknown effect \"map-1\": expected one of current_bias, ",
+    ),
+    (
+        "[fit]",
+        "[[effect]]\nname = \"viscous\"\nsigma_2 = 1\n[[effect]]\nname = \"viscous\"\n[fit]",
+        "line 28: name = \"viscous\": expected each effect once",
+    ),
+    (
+        "[fit]",
+        "[[effect]]\nname = \"stribeck\"\ndrop = 0.1\n[fit]",
+        "line 24: v_s in [[effect]] is missing",
+    ),
+    (
+        "[fit]",
+        "[[effect]]\nname = \"stribeck\"\ndrop = 0.1\nv_s = 0\n[fit]",
+        "line 27: v_s = 0: expected a positive, finite number [rad/s]",
+    ),
+    (
+        "[fit]",
+        "[[effect]]\nname = \"stribeck\"\ndrop = -0.1\nv_s = 1\n[fit]",
+        "line 26: drop = -0.1: expected a finite number, zero or more [N·m]",
+    ),
+    (
+        "[fit]",
+        "[[effect]]\nname = \"tach_gain\"\nerror = 1.5\n[fit]",
+        "line 26: error = 1.5: expected a finite number, from -9e-1 to 9e-1",
+    ),
+    (
+        "[fit]",
+        "[[effect]]\nname = \"stribeck\"\ndrop = 0.1\nv_s = 1\nf_s = 1\n[fit]",
+        "line 28: unknown key in [[effect]] \"f_s\"",
     ),
     ("[fit]", "[fits]", "unknown key in the rig file \"fits\""),
     ("[fit]", "[[effect]]\n[fit]", "name in [[effect]] is missing"),

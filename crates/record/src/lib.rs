@@ -7,6 +7,7 @@
 //! experiment, what the report is rendered from), [`Store`] (finished cases on disk, under their content's key);
 //! and for records of drives [`Sheet`].
 
+mod discovered;
 mod error;
 mod file;
 mod rows;
@@ -15,6 +16,7 @@ mod store;
 mod summary;
 mod table;
 
+pub use discovered::{DiscoveryRecord, DiscoveryRow, EffectRow, GapRow, RankedRow, ShareRow};
 pub use error::RecordError;
 pub use file::write_whole;
 pub use rows::{

@@ -1,8 +1,9 @@
 //! All tables of one experiment: what is committed, and what the report is rendered from.
 
 use crate::{
-    AboutRow, CaseRow, ClaimRow, CurveRow, FigureRow, FitRow, MeasureRow, MisfitRow, ModelRow,
-    OrderRow, PanelRow, ParameterRow, RecordError, StudyRow, Table,
+    AboutRow, CaseRow, ClaimRow, CurveRow, DiscoveryRow, EffectRow, FigureRow, FitRow, GapRow,
+    MeasureRow, MisfitRow, ModelRow, OrderRow, PanelRow, ParameterRow, RankedRow, RecordError,
+    ShareRow, StudyRow, Table,
 };
 use std::path::Path;
 
@@ -67,12 +68,22 @@ summary! {
     ;
     /// The fits to records.
     fits: FitRow = "fits.csv",
-    /// Their parameters.
+    /// The parameters of fits and searches.
     parameters: ParameterRow = "parameters.csv",
     /// The friction models against one another.
     models: ModelRow = "models.csv",
     /// The misfit of every channel.
     misfits: MisfitRow = "misfits.csv",
+    /// The searches for what a model lacks.
+    discoveries: DiscoveryRow = "discoveries.csv",
+    /// The effects that were named.
+    effects: EffectRow = "effects.csv",
+    /// The gap of every channel.
+    gaps: GapRow = "gaps.csv",
+    /// The candidates.
+    ranking: RankedRow = "ranking.csv",
+    /// Where the excess is.
+    shares: ShareRow = "shares.csv",
 }
 
 /// The rows of a table that only some experiments have; none where there is no file.

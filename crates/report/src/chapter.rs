@@ -101,11 +101,12 @@ impl<'a> Chapter<'a> {
         self.figures.iter().find(|figure| figure.row.figure == claim.figure)
     }
 
-    /// The figures of the model of one study, or of a fit; those of no study belong to the empty name.
+    /// The figures of the model of one study, of a fit or of a search; those of no study belong to the empty name.
     pub(crate) fn figures_of(&self, study: &str) -> Vec<&Figure<'a>> {
         let known = |name: &str| {
             self.summary.studies.iter().any(|row| row.study == name)
                 || self.summary.fits.iter().any(|row| row.fit == name)
+                || self.summary.discoveries.iter().any(|row| row.discovery == name)
         };
         let own = |figure: &&Figure| {
             let own = figure.row.study.as_str();

@@ -1,6 +1,7 @@
 //! The page of one fit: a file of its own, in the theme of the report.
 
 use crate::escape::html;
+use crate::fit_drawing::{FitDrawing, write_drawing};
 use crate::plot::{Axis, CSS, Chart, Line, Look, align, inline};
 
 /// What one fit has to say, all of it plain text and numbers; every text is escaped where it is shown.
@@ -29,6 +30,8 @@ pub struct FitPart {
     pub list: Vec<String>,
     /// Figures.
     pub figures: Vec<FitFigure>,
+    /// Ladders of values and maps, below the figures.
+    pub drawings: Vec<FitDrawing>,
 }
 
 /// A figure: panels of curves.
@@ -57,6 +60,8 @@ pub struct FitPanel {
     pub curves: Vec<FitCurve>,
     /// The vertical values between which the record scatters by its noise alone, drawn as two grey lines.
     pub noise: Option<f64>,
+    /// The same where it changes on the way, above zero and as far below.
+    pub local_noise: Vec<(f64, f64)>,
 }
 
 /// A curve.
@@ -89,8 +94,9 @@ pub fn fit_page(page: &FitPage) -> String {
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n\
-         <style>\n{}{CSS}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n<p class=\"count\">{}</p>\n",
+         <style>\n{}{CSS}{}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n<p class=\"count\">{}</p>\n",
         crate::html::PAGE,
+        crate::fit_drawing::CSS,
         html(&page.opening)
     );
     for (n, part) in page.parts.iter().enumerate() {
@@ -108,6 +114,9 @@ pub fn fit_page(page: &FitPage) -> String {
         }
         for (m, figure) in part.figures.iter().enumerate() {
             write_figure(&mut out, figure, &format!("figure-{n}-{m}"));
+        }
+        for (m, drawing) in part.drawings.iter().enumerate() {
+            write_drawing(&mut out, drawing, &format!("drawing-{n}-{m}"));
         }
         out.push_str("</section>\n");
     }
@@ -198,9 +207,14 @@ fn chart(panel: &FitPanel, over_time: bool) -> Chart {
         || panel.curves.iter().filter(|c| c.role != FitRole::Before).flat_map(|c| &c.points);
     let x = Axis::linear(&panel.x, points().map(|p| p.0)).checked();
     let noise = panel.noise.into_iter().flat_map(|n| [-n, n]);
+    let local: Vec<Vec<(f64, f64)>> = [-1.0, 1.0]
+        .map(|side| panel.local_noise.iter().map(|(x, n)| (*x, side * n)).collect())
+        .into_iter()
+        .filter(|line: &Vec<_>| !line.is_empty())
+        .collect();
     let heights = points().map(|p| p.1).chain(noise.clone());
     let y = widened(Axis::linear(&panel.y, heights), panel).checked();
-    let ghosts = noise.map(|n| vec![(x.from, n), (x.to, n)]).collect();
+    let ghosts = noise.map(|n| vec![(x.from, n), (x.to, n)]).chain(local).collect();
     let lines: Vec<Line> = panel
         .curves
         .iter()
@@ -257,6 +271,7 @@ mod tests {
                 curve("before", 1e9, FitRole::Before),
             ],
             noise: Some(0.1),
+            local_noise: vec![(0.0, 0.2), (499.0, f64::NAN)],
         };
         let figure = FitFigure {
             title: "over & time".to_owned(),
@@ -271,6 +286,7 @@ mod tests {
             rows: vec![vec!["<img src=x>".to_owned(), "1".to_owned()]],
             list: vec!["<li onclick=1>".to_owned()],
             figures: vec![figure],
+            drawings: Vec::new(),
         };
         FitPage {
             title: "</title><script>alert(1)</script>\u{7}".to_owned(),

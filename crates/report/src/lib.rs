@@ -17,9 +17,12 @@ macro_rules! put {
 mod across;
 mod chapter;
 mod claims;
+mod confusion;
+mod discoveries;
 mod error;
 mod escape;
 mod figures;
+mod fit_drawing;
 mod fit_page;
 mod fits;
 mod grid;
@@ -30,8 +33,10 @@ mod plot;
 mod prose;
 mod select;
 
+pub use confusion::{Confusion, ConfusionCell, Shading, confusion};
 pub use error::ReportError;
 pub use figures::{Datum, Drawing, FIGURES, FigureKind};
+pub use fit_drawing::{FitCell, FitDrawing, FitHeat, FitLadder, FitRung};
 pub use fit_page::{FitCurve, FitFigure, FitPage, FitPanel, FitPart, FitRole, fit_page};
 pub use plot::Panel;
 

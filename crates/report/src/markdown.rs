@@ -5,13 +5,14 @@ use crate::chapter::{Chapter, Figure, PAPER, heading, told};
 use crate::claims::{
     HELD, OPEN, Part, decided, few_held, in_short, of_part, ours, sign, tally, undecided,
 };
+use crate::discoveries::{self, OVERVIEW_READ};
 use crate::escape::{code_path, markdown, markdown_attribute, sentences};
 use crate::fits;
 use crate::grid;
 use crate::number;
 use crate::prose;
 use crate::select::distinct;
-use record::{ClaimRow, FitRow};
+use record::{ClaimRow, DiscoveryRow, FitRow};
 
 /// The front.
 pub(crate) fn front(chapters: &[Chapter], across: Option<&Across>) -> String {
@@ -168,7 +169,11 @@ pub(crate) fn chapter(chapter: &Chapter) -> String {
         chapter.figures_of(&study.study).into_iter().for_each(|f| out.push_str(&picture(f)));
     }
     summary.fits.iter().for_each(|fit| a_fit(&mut out, chapter, fit));
+    if let Some(table) = discoveries::overview(summary) {
+        put!(out, "\n## All records\n{}\n{}", paragraphs(OVERVIEW_READ), table.markdown());
+    }
     chapter.figures_of("").into_iter().for_each(|figure| out.push_str(&picture(figure)));
+    summary.discoveries.iter().for_each(|search| a_search(&mut out, chapter, search));
     let more = chapter.more_figures();
     if !more.is_empty() {
         let inside: String = more.iter().map(|figure| picture(figure)).collect();
@@ -201,6 +206,19 @@ fn a_fit(out: &mut String, chapter: &Chapter, fit: &FitRow) {
         put!(out, "\n### {title}\n{}\n{}", paragraphs(reads), grid.markdown());
     }
     chapter.figures_of(&fit.fit).into_iter().for_each(|figure| out.push_str(&picture(figure)));
+}
+
+/// A search for what a model lacks: its text, its answer, its tables and its figures.
+fn a_search(out: &mut String, chapter: &Chapter, search: &DiscoveryRow) {
+    let heading = prose::markdown(discoveries::heading(search));
+    put!(out, "\n## {heading}\n{}\n", paragraphs(&search.text));
+    for (key, text) in discoveries::told(chapter.summary, search) {
+        put!(out, "- {key}: {}\n", prose::markdown(&text));
+    }
+    for (title, reads, grid) in discoveries::tables(chapter.summary, &search.discovery) {
+        put!(out, "\n### {title}\n{}\n{}", paragraphs(reads), grid.markdown());
+    }
+    chapter.figures_of(&search.discovery).into_iter().for_each(|f| out.push_str(&picture(f)));
 }
 
 fn errors<'a>(out: &mut String, chapter: &Chapter<'a>, study: &'a str) {

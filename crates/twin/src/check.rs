@@ -1,6 +1,7 @@
 //! Whether a scenario makes sense.
 
-use crate::{Friction, Input, Part, PlantKind, Scenario, Sensor, TwinError, signal::count};
+use crate::signal::count;
+use crate::{Controller, Friction, Input, Part, PlantKind, Quantity, Scenario, Sensor, TwinError};
 
 /// The longest record [samples].
 const MOST_SAMPLES: f64 = 2e7;
@@ -31,6 +32,7 @@ impl Scenario {
         self.friction()?;
         self.input.check(self.duration)?;
         self.imposed()?;
+        self.controller()?;
         for (i, sensor) in self.sensors.iter().enumerate() {
             sensor.check(self)?;
             let before = &self.sensors[..i];
@@ -39,7 +41,29 @@ impl Scenario {
                 return Err(TwinError::value("sensor", &sensor.column, expected));
             }
         }
-        Ok(())
+        self.hidden.iter().try_for_each(|hidden| hidden.check(self))
+    }
+
+    /// A controller has an axis, and gains; what only a controller has needs one.
+    fn controller(&self) -> Result<(), TwinError> {
+        let Some(Controller::Pd { kp, kv, limit }) = self.controller else {
+            let lost = self.added_input.is_some()
+                || self.shows(Quantity::Reference)
+                || self.shows(Quantity::AddedInput);
+            let expected = "a controller for a reference or an added input";
+            return if lost {
+                Err(TwinError::value("controller", "none", expected))
+            } else {
+                Ok(())
+            };
+        };
+        if !matches!(self.plant, PlantKind::Axis { .. }) {
+            return Err(TwinError::value("controller", self.plant.kind(), "an axis"));
+        }
+        finite("controller.kp", kp)?;
+        finite("controller.kv", kv)?;
+        positive("controller.limit", limit)?;
+        self.added_input.iter().try_for_each(|input| input.check(self.duration))
     }
 
     fn plant(&self) -> Result<(), TwinError> {
@@ -171,7 +195,7 @@ impl Sensor {
         finite(&key("bias"), self.bias)?;
         not_negative(&key("noise"), self.noise)?;
         not_negative(&key("quantum"), self.quantum)?;
-        let turns = matches!(self.quantity, crate::Quantity::Angle | crate::Quantity::Velocity);
+        let turns = matches!(self.quantity, Quantity::Angle | Quantity::Velocity);
         if self.at_motor && !(turns && plant.kind() == "drum") {
             let expected = "a motor's shaft only for angle and velocity of a drum";
             return Err(TwinError::value(key("at_motor"), true, expected));

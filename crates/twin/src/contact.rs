@@ -62,6 +62,12 @@ impl Bristle {
         (v.abs() / r, v.signum() * (1.0 - v * r_slope / r) / r)
     }
 
+    /// Deflection z in steady sliding r(v) [m].
+    pub(crate) fn settled(&self, v: f64) -> f64 {
+        let ratio = v / self.v_s;
+        self.fast + self.drop * (-ratio * ratio).exp()
+    }
+
     /// ż [m/s], its slope over v, and over z at constant v [1/s].
     pub(crate) fn rate(&self, v: f64, z: f64) -> (f64, f64, f64) {
         if self.sigma_0 == 0.0 {
@@ -69,6 +75,27 @@ impl Bristle {
         }
         let (wear, slope) = self.wear(v);
         (v - wear * z, 1.0 - slope * z, -wear)
+    }
+}
+
+impl Friction {
+    /// Coulomb level F_C, the force in long slow sliding but for Stribeck's [N]; 0 if there is none.
+    pub(crate) fn level(&self) -> f64 {
+        match self {
+            Self::None { .. } => 0.0,
+            Self::Coulomb { f_c, .. } | Self::Dahl { f_c, .. } | Self::LuGre { f_c, .. } => *f_c,
+            Self::MaxwellSlip { k, delta, .. } => k.iter().zip(delta).map(|(k, d)| k * d).sum(),
+        }
+    }
+
+    /// Slip that renews the contact [m]: a deflection of its bristles; for Coulomb's, which has none, 10 µm.
+    pub(crate) fn grain(&self) -> f64 {
+        match self {
+            Self::None { .. } | Self::Coulomb { .. } => 1e-5,
+            Self::Dahl { f_c, sigma, .. } => f_c / sigma,
+            Self::LuGre { f_c, sigma_0, .. } => f_c / sigma_0,
+            Self::MaxwellSlip { delta, .. } => delta.iter().copied().fold(f64::INFINITY, f64::min),
+        }
     }
 }
 

@@ -220,7 +220,7 @@ impl<'a> Driven<'a> {
 }
 
 /// Where f, positive at a and not at b, has its root, by regula falsi with the Illinois rule; on the side of b.
-fn root(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
+pub(crate) fn root(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     let (mut a, mut b) = ((a, f(a)), (b, f(b)));
     for _ in 0..80 {
         let mut middle = (a.0 * b.1 - b.0 * a.1) / (b.1 - a.1);
@@ -249,6 +249,6 @@ fn root(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
 }
 
 /// Where f, not positive at a and positive at b, has its root; on the side of b.
-fn root_up(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
+pub(crate) fn root_up(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     root(|t| -f(t), a, b)
 }

@@ -9,26 +9,32 @@
 //! The integrator is a Rosenbrock method of order 4 whose steps end at every sample, every corner of the drive
 //! and every reversal.
 //!
+//! A scenario may hide effects ([`HiddenEffect`], `[[hidden]]` in its TOML) and have a controller; such a record has
+//! an integrator of its own, with as many states as the effects need. [`bench`] draws whole cases by seed.
+//!
 //! Read first: [`Scenario`] (what is made), [`make`] (makes it), [`Made`] (the record and its truth).
 
+pub mod bench;
 mod catalogue;
 mod check;
 mod contact;
 mod driven;
 mod error;
-mod hidden;
+pub mod hidden;
 mod imposed;
 mod make;
 mod plant;
+mod planted;
 mod rosenbrock;
 mod scenario;
 mod sensor;
 mod signal;
 mod units;
+mod wide;
 
 pub use catalogue::{SCENARIOS, scenario};
 pub use error::TwinError;
-pub use hidden::Hidden;
+pub use hidden::{Hidden, HiddenEffect};
 pub use make::{Column, Made, Truth, make, make_hidden};
-pub use scenario::{Friction, Input, Part, PlantKind, Scenario, Sensor, Start};
+pub use scenario::{Controller, Friction, Input, Part, PlantKind, Scenario, Sensor, Start};
 pub use units::Quantity;

@@ -7,7 +7,7 @@ use crate::{
     hidden::Nothing,
     imposed::Imposed,
     plant::Instant,
-    sensor,
+    planted, sensor,
     signal::{Leg, Signal},
 };
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,8 @@ use serde::{Deserialize, Serialize};
 pub struct Made {
     /// Header and values of each column: the time [s], then the sensors as the scenario lists them.
     pub columns: Vec<(String, Vec<f64>)>,
-    /// The same columns as perfect sensors would have shown them, in the same units.
+    /// The same columns as perfect sensors would have shown them, in the same units; what is hidden in a sensor
+    /// shows here.
     pub clean: Vec<(String, Vec<f64>)>,
     /// What each column is.
     pub about: Vec<Column>,
@@ -52,6 +53,8 @@ pub struct Truth {
 const TIME: &str = "time_s";
 /// Local error of a step, relative to the largest values of the record so far.
 const TOLERANCE: f64 = 1e-9;
+/// The same for a record with effects.
+const PLANTED_TOLERANCE: f64 = 1e-8;
 
 /// Makes the record of a scenario. The same seed makes the same record.
 ///
@@ -73,9 +76,8 @@ pub fn make_hidden(
     coarser: f64,
 ) -> Result<Made, TwinError> {
     scenario.check()?;
-    let signal = Signal::new(&scenario.input, scenario.duration, seed);
-    let motion = motion(scenario, &signal, hidden, TOLERANCE * coarser)?;
-    let times: Vec<f64> = (0..motion.len()).map(|k| k as f64 / scenario.rate).collect();
+    let truths = truths(scenario, seed, hidden, coarser)?;
+    let times: Vec<f64> = (0..scenario.samples()).map(|k| k as f64 / scenario.rate).collect();
     let mut columns = vec![(TIME.to_owned(), times)];
     let mut clean = columns.clone();
     let mut about = vec![Column {
@@ -84,8 +86,8 @@ pub fn make_hidden(
         unit: "s".to_owned(),
         at_motor: false,
     }];
-    for sensor in &scenario.sensors {
-        let (unit, truth) = seen(&scenario.plant, sensor, &motion)?;
+    for (sensor, truth) in scenario.sensors.iter().zip(truths) {
+        let (unit, truth) = shown(&scenario.plant, sensor, truth)?;
         columns.push((sensor.column.clone(), sensor::read(sensor, &truth, seed)));
         clean.push((sensor.column.clone(), truth));
         about.push(Column {
@@ -98,20 +100,38 @@ pub fn make_hidden(
     Ok(Made { columns, clean, about, truth: Truth { seed, scenario: scenario.clone() } })
 }
 
-/// The true values before a sensor, in its unit.
-fn seen(
+/// For each sensor the true values of what it measures [SI].
+fn truths(
+    scenario: &Scenario,
+    seed: u64,
+    hidden: &dyn Hidden,
+    coarser: f64,
+) -> Result<Vec<Vec<f64>>, TwinError> {
+    if !scenario.hidden.is_empty() || scenario.controller.is_some() {
+        return planted::record(scenario, seed, hidden, PLANTED_TOLERANCE * coarser);
+    }
+    let signal = Signal::new(&scenario.input, scenario.duration, seed);
+    let motion = motion(scenario, &signal, hidden, TOLERANCE * coarser)?;
+    let plant = &scenario.plant;
+    let of = |sensor: &Sensor| motion.iter().map(|now| plant.read(sensor.quantity, now)).collect();
+    scenario.sensors.iter().map(of).collect()
+}
+
+/// The values before a sensor, in its unit and on its side of the gear.
+fn shown(
     plant: &PlantKind,
     sensor: &Sensor,
-    motion: &[Instant],
+    mut truth: Vec<f64>,
 ) -> Result<(&'static str, Vec<f64>), TwinError> {
     let (unit, factor) = sensor.quantity.unit(sensor.unit.as_deref(), plant.rotary())?;
     let geared = match plant {
         PlantKind::Drum { gear_ratio, .. } if sensor.at_motor => *gear_ratio,
         _ => 1.0,
     };
-    let values: Result<Vec<f64>, TwinError> =
-        motion.iter().map(|now| Ok(plant.read(sensor.quantity, now)? * factor * geared)).collect();
-    Ok((unit, values?))
+    for value in &mut truth {
+        *value = *value * factor * geared;
+    }
+    Ok((unit, truth))
 }
 
 /// The plant at every sample.
@@ -127,7 +147,8 @@ fn motion(
         let state = (start.position, start.velocity);
         let mut plant = Driven::new(balance, contact, hidden, state, tolerance);
         return sampled(scenario, signal, |leg, (from, end)| {
-            let now = Instant { u: leg.at(from).0, q: plant.q(), v: plant.v(), force: 0.0 };
+            let now =
+                Instant { u: leg.at(from).0, q: plant.q(), v: plant.v(), ..Instant::default() };
             plant.follow(leg, end)?;
             Ok(now)
         });
@@ -137,7 +158,8 @@ fn motion(
     let offset = scenario.plant.offset();
     sampled(scenario, signal, |leg, (from, end)| {
         let (u, v) = leg.at(from);
-        let now = Instant { u, q: plant.q(), v, force: plant.force(v) + offset };
+        let force = plant.force(v) + offset;
+        let now = Instant { u, q: plant.q(), v, force, ..Instant::default() };
         plant.follow(leg, end)?;
         Ok(now)
     })

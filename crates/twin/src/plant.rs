@@ -45,6 +45,10 @@ pub(crate) struct Instant {
     pub(crate) v: f64,
     /// Friction force with its offset; only told of an imposed motion.
     pub(crate) force: f64,
+    /// Where a controller wants it to be.
+    pub(crate) reference: f64,
+    /// What is added to the controller's command.
+    pub(crate) added: f64,
 }
 
 impl PlantKind {
@@ -114,6 +118,8 @@ impl PlantKind {
             (Self::Drum { .. }, Q::Current)
             | (Self::Axis { .. } | Self::Pendulum { .. }, Q::Voltage)
             | (Self::MassSpring { .. }, Q::Force) => now.u,
+            (Self::Axis { .. }, Q::Reference) => now.reference,
+            (Self::Axis { .. }, Q::AddedInput) => now.added,
             (Self::Axis { gain, .. }, Q::Force) => gain * now.u,
             (Self::Prescribed { .. }, Q::Force) => now.force,
             (Self::Drum { .. } | Self::Pendulum { .. }, Q::Angle)
@@ -126,7 +132,9 @@ impl PlantKind {
                 let expected = match self {
                     Self::Drum { .. } => "current, angle, velocity, force_1 or force_2",
                     Self::MassSpring { .. } => "force, position or velocity",
-                    Self::Axis { .. } => "force, voltage, position or velocity",
+                    Self::Axis { .. } => {
+                        "force, voltage, position, velocity, reference or added_input"
+                    }
                     Self::Pendulum { .. } => "voltage, angle or velocity",
                     Self::Prescribed { .. } => "displacement, velocity or force",
                 };

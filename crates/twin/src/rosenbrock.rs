@@ -16,17 +16,17 @@ pub(crate) trait Flow {
     fn slope_in_time(&self, t: f64, y: &Vector3<f64>) -> Vector3<f64>;
 }
 
-const GAMMA: f64 = 0.25;
-const C: [f64; 6] = [0.0, 0.386, 0.21, 0.63, 1.0, 1.0];
-const D: [f64; 4] = [0.25, -0.1043, 0.1035, -0.036_200_000_000_000_23];
-const A: [&[f64]; 5] = [
+pub(crate) const GAMMA: f64 = 0.25;
+pub(crate) const C: [f64; 6] = [0.0, 0.386, 0.21, 0.63, 1.0, 1.0];
+pub(crate) const D: [f64; 4] = [0.25, -0.1043, 0.1035, -0.036_200_000_000_000_23];
+pub(crate) const A: [&[f64]; 5] = [
     &[],
     &[1.544],
     &[0.946_678_528_081_582_6, 0.255_701_169_898_328_4],
     &[3.314_825_187_068_521, 2.896_124_015_972_201, 0.998_641_913_997_781_7],
     &[1.221_224_509_226_641, 6.019_134_481_288_629, 12.537_083_329_320_87, -0.687_886_036_105_895],
 ];
-const COUPLING: [&[f64]; 6] = [
+pub(crate) const COUPLING: [&[f64]; 6] = [
     &[],
     &[-5.6688],
     &[-2.430_093_356_833_875, -0.206_359_915_709_191_5],
@@ -81,7 +81,7 @@ pub(crate) struct Pace {
 }
 
 /// The shortest step, relative to the time or one second.
-const SHORTEST: f64 = 1e-15;
+pub(crate) const SHORTEST: f64 = 1e-15;
 
 impl Pace {
     /// A pace that begins with steps of h; errors are relative to the largest values seen, and to `least`.

@@ -1,6 +1,6 @@
 //! What is to be made: plant, friction, drive and sensors, as its TOML says.
 
-use crate::{Quantity, TwinError};
+use crate::{HiddenEffect, Quantity, TwinError};
 use serde::{Deserialize, Serialize};
 
 /// A record to be made. All values are in SI units, but for those of a sensor, which are in its own.
@@ -23,11 +23,36 @@ pub struct Scenario {
     /// Where it starts.
     #[serde(default)]
     pub start: Start,
-    /// What drives it; for an imposed motion, its displacement.
+    /// What drives it; for an imposed motion, its displacement; for a controlled axis, its reference [m].
     pub input: Input,
+    /// The controller of an axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub controller: Option<Controller>,
+    /// What is added to the controller's command [V].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub added_input: Option<Input>,
     /// What is measured.
     #[serde(rename = "sensor")]
     pub sensors: Vec<Sensor>,
+    /// What is hidden in it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hidden: Vec<HiddenEffect>,
+}
+
+/// V = clip(kᵥ (kₚ (q_ref − q) − q̇), ±limit) + added input, with q as the sensor reads it and q̇ the difference of
+/// the means of two readings each; held until the next sample of the record.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Controller {
+    /// Position and speed.
+    Pd {
+        /// Position gain kₚ [1/s].
+        kp: f64,
+        /// Velocity gain kᵥ [V·s/m].
+        kv: f64,
+        /// Largest command [V].
+        limit: f64,
+    },
 }
 
 /// A plant with its parameters. Each has an `offset`, a constant part of the friction force or torque.
@@ -280,6 +305,11 @@ fn is_false(value: &bool) -> bool {
 }
 
 impl Scenario {
+    /// Whether one of its sensors measures this.
+    pub fn shows(&self, quantity: Quantity) -> bool {
+        self.sensors.iter().any(|sensor| sensor.quantity == quantity)
+    }
+
     /// The scenario that a TOML file holds.
     pub fn parse(text: &str) -> Result<Self, TwinError> {
         let scenario: Self =

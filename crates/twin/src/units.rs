@@ -28,6 +28,10 @@ pub enum Quantity {
     /// Force of the drum's second spring [N].
     #[serde(rename = "force_2")]
     Force2,
+    /// Where the controller of an axis wants it to be [m].
+    Reference,
+    /// What is added to the controller's command [V].
+    AddedInput,
 }
 
 impl Quantity {
@@ -43,6 +47,8 @@ impl Quantity {
             Self::Velocity => "velocity",
             Self::Force1 => "force_1",
             Self::Force2 => "force_2",
+            Self::Reference => "reference",
+            Self::AddedInput => "added_input",
         }
     }
 
@@ -50,9 +56,11 @@ impl Quantity {
     fn units(self, rotary: bool) -> &'static [(&'static str, f64)] {
         match self {
             Self::Current => &[("A", 1.0), ("mA", 1e3)],
-            Self::Voltage => &[("V", 1.0), ("mV", 1e3)],
+            Self::Voltage | Self::AddedInput => &[("V", 1.0), ("mV", 1e3)],
             Self::Force | Self::Force1 | Self::Force2 => &[("N", 1.0), ("mN", 1e3), ("kN", 1e-3)],
-            Self::Displacement | Self::Position => &[("m", 1.0), ("mm", 1e3), ("um", 1e6)],
+            Self::Displacement | Self::Position | Self::Reference => {
+                &[("m", 1.0), ("mm", 1e3), ("um", 1e6)]
+            }
             Self::Angle => &[("rad", 1.0), ("deg", 180.0 / PI), ("rev", 1.0 / TAU)],
             Self::Velocity if rotary => {
                 &[("rad/s", 1.0), ("deg/s", 180.0 / PI), ("rpm", 60.0 / TAU)]

@@ -5,6 +5,7 @@ mod built;
 mod coverage;
 mod ensemble;
 mod fit;
+mod hidden;
 mod machine;
 mod patch;
 mod properties;
@@ -24,6 +25,7 @@ pub(crate) fn bench(root: &Path, arguments: &BenchArgs) -> Result<Exit, Failure>
         Some(Bench::Anchors(arguments)) => anchors::run(root, arguments),
         Some(Bench::Coverage(arguments)) => coverage::run(root, arguments),
         Some(Bench::Fit(arguments)) => fit::run(root, arguments),
+        Some(Bench::HiddenEffects(arguments)) => hidden::run(root, arguments),
         None => anchors::run(root, &arguments.anchors),
     }
 }

@@ -1,8 +1,8 @@
 //! `fit` and `simulate`: a rig's model and a record of its drive.
 
-mod page;
+pub(crate) mod page;
 mod regressed;
-mod shown;
+pub(crate) mod shown;
 
 use crate::{
     cli::{FitArgs, FitMethod, SimulateArgs},
@@ -24,7 +24,7 @@ use std::{path::Path, time::Instant};
 pub(crate) const FORMAT: u32 = 1;
 
 /// The failure for what is wrong with the file at `path`.
-fn of_file<E: Into<anyhow::Error>>(path: &Path) -> impl Fn(E) -> Failure {
+pub(crate) fn of_file<E: Into<anyhow::Error>>(path: &Path) -> impl Fn(E) -> Failure {
     move |error| {
         let error = error.into().context(safe(&path.display().to_string()));
         Failure { exit: Exit::Input, error }
@@ -120,7 +120,7 @@ pub(crate) fn simulate(arguments: &SimulateArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-fn say_where(out: Option<&Path>) {
+pub(crate) fn say_where(out: Option<&Path>) {
     if let Some(out) = out {
         output::line(&format!("written to {}", safe(&out.display().to_string())));
     }
@@ -171,7 +171,7 @@ fn traces(path: &Path, all: &[Trace]) -> Result<(), Failure> {
     Ok(())
 }
 
-fn rounded(seconds: f64) -> f64 {
+pub(crate) fn rounded(seconds: f64) -> f64 {
     (seconds * 1e3).round() / 1e3
 }
 

@@ -21,18 +21,18 @@ pub(super) fn of_fit(rig: &Rig, data: &Data, fit: &Fit, held: Option<&Held>) -> 
     if !fit.models.is_empty() {
         parts.push(models(fit));
     }
-    let mut figures = vec![histories(rig, fit)];
+    let mut figures = vec![histories(rig, &fit.traces, fit.windows > 1)];
     figures.extend(residuals(rig, fit));
-    figures.extend(loops(rig, data, fit));
+    figures.extend(loops(rig, data, &fit.traces));
     parts.push(FitPart { title: "The record and the model".to_owned(), figures, ..part() });
     report::fit_page(&FitPage { title: safe(&rig.title), opening: opening(rig, fit), parts })
 }
 
-fn part() -> FitPart {
+pub(crate) fn part() -> FitPart {
     FitPart::default()
 }
 
-fn words(all: &[&str]) -> Vec<String> {
+pub(crate) fn words(all: &[&str]) -> Vec<String> {
     all.iter().map(|word| (*word).to_owned()).collect()
 }
 
@@ -92,7 +92,7 @@ fn parameters(rig: &Rig, fit: &Fit) -> FitPart {
     }
 }
 
-fn named(name: &str, unit: &str) -> String {
+pub(crate) fn named(name: &str, unit: &str) -> String {
     if unit.is_empty() || unit == "1" { name.to_owned() } else { format!("{name} [{unit}]") }
 }
 
@@ -180,12 +180,13 @@ fn models(fit: &Fit) -> FitPart {
     }
 }
 
-fn curve(name: &str, x: &[f64], y: &[f64], role: FitRole) -> FitCurve {
+pub(crate) fn curve(name: &str, x: &[f64], y: &[f64], role: FitRole) -> FitCurve {
     let points = x.iter().copied().zip(y.iter().copied()).collect();
     FitCurve { name: name.to_owned(), points, role }
 }
 
-fn histories(rig: &Rig, fit: &Fit) -> FitFigure {
+/// Every channel over time, as measured, before and after; `anew` in windows.
+pub(crate) fn histories(rig: &Rig, traces: &[Trace], anew: bool) -> FitFigure {
     let panel = |t: &Trace| FitPanel {
         x: "t [s]".to_owned(),
         y: named(&t.channel, unit(rig, &t.channel)),
@@ -196,7 +197,7 @@ fn histories(rig: &Rig, fit: &Fit) -> FitFigure {
         ],
         ..FitPanel::default()
     };
-    let windows = if fit.windows > 1 {
+    let windows = if anew {
         " Each window starts anew from where the record is, so that the lines of the model jump between windows."
     } else {
         ""
@@ -207,7 +208,7 @@ fn histories(rig: &Rig, fit: &Fit) -> FitFigure {
             "Measured, and simulated with the parameters given (before) and found (after). \
              A line before the fit may leave the panel.{windows}"
         ),
-        panels: fit.traces.iter().map(panel).collect(),
+        panels: traces.iter().map(panel).collect(),
         over_time: true,
     }
 }
@@ -235,15 +236,15 @@ fn residuals(rig: &Rig, fit: &Fit) -> Option<FitFigure> {
 }
 
 /// Displacement against driving force, or friction force against the displacement imposed.
-fn loops(rig: &Rig, data: &Data, fit: &Fit) -> Option<FitFigure> {
-    let first = fit.traces.first()?;
+pub(crate) fn loops(rig: &Rig, data: &Data, traces: &[Trace]) -> Option<FitFigure> {
+    let first = traces.first()?;
     let at = |values: &[f64]| -> Vec<f64> { sampled(&data.time, values, &first.time) };
     let turns = Kind::of(rig.kind).is_some_and(Kind::turns);
     let (what, force_unit) = if turns { ("torque", "N·m") } else { ("force", "N") };
     let imposed = data.force.is_some();
     let gain = drive_gain(rig);
     let driven = |values: &[f64]| -> Vec<f64> { values.iter().map(|v| gain * v).collect() };
-    let input = fit.traces.iter().find(|t| t.channel == "input");
+    let input = traces.iter().find(|t| t.channel == "input");
     let recorded = at(&data.input);
     // Of a loop the displacement is seen, and with a controller its drive, too; under imposed motion the force.
     let pair = |seen: &[f64], drive: &[f64]| {
@@ -264,7 +265,7 @@ fn loops(rig: &Rig, data: &Data, fit: &Fit) -> Option<FitFigure> {
             curve("measured", &measured.0, &measured.1, FitRole::Measured),
             curve(title, &model.0, &model.1, role),
         ],
-        noise: None,
+        ..FitPanel::default()
     };
     let before = pair(&first.before, drive(|t| &t.before));
     let after = pair(&first.after, drive(|t| &t.after));

@@ -135,7 +135,7 @@ pub(super) fn lines(rig: &Rig, fit: &Fit, held: Option<&Held>) -> Vec<String> {
 }
 
 /// A value with as many digits as its error makes sense of: to two digits of the error.
-pub(super) fn sure(value: f64, error: f64) -> String {
+pub(crate) fn sure(value: f64, error: f64) -> String {
     let ratio = value.abs() / error;
     if !(error > 0.0 && error.is_finite() && ratio.is_finite() && ratio > 100.0) {
         return four_digits(value);

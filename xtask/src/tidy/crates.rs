@@ -5,18 +5,30 @@ use crate::exit::{Exit, Failure};
 use std::path::Path;
 
 /// Our crates and those of ours they may depend on.
-const MAY: [(&str, &[&str]); 9] = [
+const MAY: [(&str, &[&str]); 10] = [
     ("duhem", &[]),
     ("integrate", &[]),
     ("simulation", &["duhem", "integrate"]),
     ("identify", &["duhem", "integrate", "simulation"]),
+    // The twin in its tests alone.
+    ("discover", &["duhem", "identify", "twin"]),
     ("twin", &[]),
     ("record", &[]),
-    ("experiment", &["duhem", "integrate", "simulation", "identify", "record"]),
+    ("experiment", &["duhem", "integrate", "simulation", "identify", "discover", "record"]),
     ("report", &["record"]),
     (
         "xtask",
-        &["duhem", "integrate", "simulation", "identify", "twin", "record", "experiment", "report"],
+        &[
+            "duhem",
+            "integrate",
+            "simulation",
+            "identify",
+            "discover",
+            "twin",
+            "record",
+            "experiment",
+            "report",
+        ],
     ),
 ];
 
@@ -26,7 +38,7 @@ const HEAVY: [(&str, &[&str]); 5] = [
     ("ode_solvers", &["integrate"]),
     ("polars", &["record"]),
     ("plotters", &["report"]),
-    ("rayon", &["experiment", "identify", "integrate"]),
+    ("rayon", &["experiment", "identify", "discover", "integrate"]),
 ];
 
 pub(super) fn directions(root: &Path) -> Result<Vec<String>, Failure> {

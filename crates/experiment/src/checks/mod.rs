@@ -1,6 +1,7 @@
 //! Sentences that can be checked: one entry for each kind of sentence.
 
 mod dahl;
+mod discovery;
 mod energy;
 mod fit;
 mod lugre;
@@ -89,4 +90,6 @@ pub const CHECKS: &[Check] = &[
     table1::RATE,
     table1::CONTINUITY,
     fit::BEST_MODEL,
+    discovery::ANSWER,
+    discovery::CLOSES,
 ];

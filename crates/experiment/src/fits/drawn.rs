@@ -1,14 +1,14 @@
-//! The curves of a fit: what was recorded, and what the rig does with nominal and with fitted parameters.
+//! The curves of a fit or a search: what was recorded, and what the rig does as given and as it was found.
 
-use super::{Motions, Which};
-use crate::{curves::Series, plan::Fit, spec::PanelSpec};
+use super::{Motions, Runs, Which};
+use crate::{curves::Series, spec::PanelSpec};
 
 /// The largest number of samples that is drawn of a curve.
 const MOST: usize = 1000;
 
 /// The curves of one panel.
-pub(crate) fn series(fit: &Fit, panel: &PanelSpec) -> Result<Series, String> {
-    let time = &fit.recording.time;
+pub(crate) fn series(runs: &Runs<'_>, panel: &PanelSpec) -> Result<Series, String> {
+    let time = &runs.recording.time;
     let range = match panel.between {
         Some(between) => Motions::within(time, between),
         None => 0..time.len(),
@@ -17,26 +17,26 @@ pub(crate) fn series(fit: &Fit, panel: &PanelSpec) -> Result<Series, String> {
     let pick = |x: &[f64], y: &[f64]| {
         range.clone().step_by(stride).filter_map(|i| Some((*x.get(i)?, *y.get(i)?))).collect()
     };
-    let channel = |name: &str| fit.recording.channels.get(name).map_or(&[][..], Vec::as_slice);
+    let channel = |name: &str| runs.recording.channels.get(name).map_or(&[][..], Vec::as_slice);
     if panel.show == "loads-time" {
         let of = |name: &str, label: &str| (label.to_owned(), pick(time, channel(name)));
         return Ok(vec![of("force_1", "F_1"), of("force_2", "F_2")]);
     }
     if panel.show == "input-time" {
-        return Ok(vec![(Which::Record.label(fit).to_owned(), pick(time, &fit.data.input))]);
+        return Ok(vec![(runs.label(Which::Record).to_owned(), pick(time, &runs.data.input))]);
     }
     let record = ["record".to_owned()];
     let names = if panel.of.is_empty() { &record[..] } else { &panel.of[..] };
     let mut series = Series::new();
     for name in names {
         let which = Which::of(name)?;
-        let mut motion = Motions::of(fit, which, 1.0)?;
+        let mut motion = Motions::of(runs, which, 1.0)?;
         if panel.centred {
             let middle = middle(&motion.q[range.clone()]);
             motion.q.iter_mut().for_each(|q| *q -= middle);
             motion.drive.iter_mut().for_each(|t| *t -= motion.constant);
         }
-        let gear = fit.rig.value("gear_ratio").unwrap_or(1.0);
+        let gear = runs.given.value("gear_ratio").unwrap_or(1.0);
         let motor: Vec<f64> = motion.v.iter().map(|v| gear * v).collect();
         let points = match panel.show.as_str() {
             "displacement-drive" => pick(&motion.drive, &motion.q),
@@ -45,7 +45,7 @@ pub(crate) fn series(fit: &Fit, panel: &PanelSpec) -> Result<Series, String> {
             "motor-speed-time" => pick(time, &motor),
             _ => pick(time, &motion.q),
         };
-        series.push((which.label(fit).to_owned(), points));
+        series.push((runs.label(which).to_owned(), points));
     }
     Ok(series)
 }

@@ -4,7 +4,7 @@ mod drawn;
 mod motions;
 
 pub(crate) use drawn::{ends, middle, series};
-pub(crate) use motions::{Motions, Which};
+pub(crate) use motions::{Motions, Runs, Which};
 
 use crate::{
     ExperimentError, Options, Plan, Why,
@@ -120,7 +120,8 @@ fn misfits(study: &Fit, found: &Found) -> Vec<MisfitRow> {
     found.gap.iter().map(row).collect()
 }
 
-fn one(unit: &str) -> String {
+/// A unit, and `1` for none.
+pub(crate) fn one(unit: &str) -> String {
     if unit.is_empty() { "1" } else { unit }.to_owned()
 }
 

@@ -1,9 +1,9 @@
-//! The record's own motion, and those of the rig with its nominal and its fitted parameters.
+//! The record's own motion, and those of the rig as given and as it was found.
 
-use crate::plan::Fit;
+use crate::plan::{Discovery, Fit};
 use identify::{
-    Rig,
-    fit::binding,
+    Recording, Rig,
+    fit::{Data, binding},
     march::{Drive, Start, Tolerance, march},
 };
 
@@ -12,10 +12,10 @@ use identify::{
 pub(crate) enum Which {
     /// As it was recorded.
     Record,
-    /// Simulated with the nominal parameters, and the bias that the fit found.
+    /// Simulated with the rig as given.
     Given,
-    /// Simulated with the fitted parameters.
-    Fitted,
+    /// Simulated with the rig as it was found.
+    Found,
 }
 
 impl Which {
@@ -24,20 +24,60 @@ impl Which {
         match name {
             "record" => Ok(Self::Record),
             "given" => Ok(Self::Given),
-            "fitted" => Ok(Self::Fitted),
-            other => Err(format!("found `{other}`: expected one of record, given, fitted")),
+            "fitted" | "found" => Ok(Self::Found),
+            other => Err(format!("found `{other}`: expected one of record, given, fitted, found")),
         }
+    }
+}
+
+/// A record with the rig as given and as it was found.
+pub(crate) struct Runs<'a> {
+    /// The record's channels.
+    pub(crate) recording: &'a Recording,
+    /// The record as it is simulated.
+    pub(crate) data: &'a Data,
+    /// The rig as given.
+    pub(crate) given: Rig,
+    /// The rig as found.
+    pub(crate) found: Rig,
+    /// How a figure labels the record, the first and the second rig.
+    labels: [&'static str; 3],
+}
+
+impl<'a> Runs<'a> {
+    /// The rig with nominal parameters, and the bias that the fit found; and with the fitted ones.
+    pub(crate) fn of_fit(fit: &'a Fit) -> Result<Self, String> {
+        let (mut given, found) = (fit.rig.clone(), fit.fitted_rig()?);
+        binding::set(&mut given, "offset", found.value("offset").unwrap_or(0.0));
+        // Only what was made has a truth.
+        let record = if fit.truth.is_empty() { "record" } else { "synthetic record" };
+        let labels = [record, "tuned by hand", "fitted"];
+        Ok(Self { recording: &fit.recording, data: &fit.data, given, found, labels })
+    }
+
+    /// The rig as given, and with what was found.
+    pub(crate) fn of_discovery(search: &'a Discovery) -> Result<Self, String> {
+        let source = &search.source;
+        let found = Rig::parse(&search.found()?.model).map_err(|e| e.to_string())?;
+        let record = if search.hidden.is_none() { "record" } else { "synthetic record" };
+        let labels = [record, "as given", "as found"];
+        let (recording, data) = (&source.recording, &source.data);
+        Ok(Self { recording, data, given: source.rig.clone(), found, labels })
     }
 
     /// As a figure labels it.
-    pub(crate) fn label(self, fit: &Fit) -> &'static str {
-        match self {
-            // Only what was made has a truth.
-            Self::Record if !fit.truth.is_empty() => "synthetic record",
-            Self::Record => "record",
-            Self::Given => "tuned by hand",
-            Self::Fitted => "fitted",
+    pub(crate) fn label(&self, which: Which) -> &'static str {
+        let [record, given, found] = self.labels;
+        match which {
+            Which::Record => record,
+            Which::Given => given,
+            Which::Found => found,
         }
+    }
+
+    /// The rig of a motion; of the record's own the one that was found.
+    pub(crate) fn rig(&self, which: Which) -> &Rig {
+        if which == Which::Given { &self.given } else { &self.found }
     }
 }
 
@@ -58,26 +98,17 @@ const TOLERANCE: f64 = 1e-6;
 
 impl Motions {
     /// The motion of `which`, its steps' tolerance divided by `finer`.
-    pub(crate) fn of(fit: &Fit, which: Which, finer: f64) -> Result<Self, String> {
-        let fitted = fit.fitted_rig()?;
-        let rig = match which {
-            Which::Record | Which::Fitted => fitted.clone(),
-            Which::Given => {
-                let mut rig = fit.rig.clone();
-                binding::set(&mut rig, "offset", fitted.value("offset").unwrap_or(0.0));
-                rig
-            }
-        };
-        let model = binding::model::<f64>(&rig, &|_| None);
-        let drive = fit.data.input.iter().map(|u| model.balance.gain * u).collect();
+    pub(crate) fn of(runs: &Runs<'_>, which: Which, finer: f64) -> Result<Self, String> {
+        let (rig, data) = (runs.rig(which), runs.data);
+        let model = binding::model::<f64>(rig, &|_| None);
+        let drive = data.input.iter().map(|u| model.balance.gain * u).collect();
         let constant = model.offset - model.balance.constant;
-        let seen =
-            fit.data.displacement.as_ref().ok_or("an imposed motion where a plant is needed")?;
-        let velocity = fit.data.velocity.as_ref();
+        let seen = data.displacement.as_ref().ok_or("an imposed motion where a plant is needed")?;
+        let velocity = data.velocity.as_ref();
         let (q, v) = if which == Which::Record {
             (seen.values.clone(), velocity.map(|v| v.values.clone()).unwrap_or_default())
         } else {
-            simulated(fit, &rig, TOLERANCE / finer)?
+            simulated(data, rig, TOLERANCE / finer)?
         };
         Ok(Self { q, v, drive, constant })
     }
@@ -89,9 +120,8 @@ impl Motions {
 }
 
 /// The rig from the record's first sample, at rest there, driven by the record's input.
-fn simulated(fit: &Fit, rig: &Rig, tolerance: f64) -> Result<(Vec<f64>, Vec<f64>), String> {
+fn simulated(data: &Data, rig: &Rig, tolerance: f64) -> Result<(Vec<f64>, Vec<f64>), String> {
     let model = binding::model::<f64>(rig, &|_| None);
-    let data = &fit.data;
     let first = |seen: &Option<identify::fit::Seen>| {
         seen.as_ref().and_then(|s| s.values.first().copied()).unwrap_or(0.0)
     };
@@ -114,6 +144,6 @@ fn simulated(fit: &Fit, rig: &Rig, tolerance: f64) -> Result<(Vec<f64>, Vec<f64>
     Ok((motion.q, motion.v))
 }
 
-fn first_input(data: &identify::fit::Data) -> f64 {
+fn first_input(data: &Data) -> f64 {
     data.input.first().copied().unwrap_or(0.0)
 }

@@ -1,10 +1,11 @@
 //! The figures of an experiment, checked.
 
-use super::{Fit, Study, panel};
+use super::{Known, Study, panel};
 use crate::{
     error::{Complaint, one_of},
     spec::{FigureSpec, PanelSpec, Spec},
 };
+use identify::{Recording, Rig};
 
 /// What a panel may show: the vertical quantity, then the horizontal one. Of a plant, `drive` is the force
 /// (or torque) that its input makes.
@@ -33,12 +34,19 @@ pub(crate) const SHOWS_OF_FITS: [&str; 7] = [
     "loads-time",
 ];
 
+/// What a panel may show of a search besides: the force that the model lacks, and its floor.
+pub(crate) const RESIDUAL: &str = "residual-time";
+
+/// And the loop in the blocks of the search, each from its own start: in one run a wrong model may drift away.
+pub(crate) const BY_BLOCKS: &str = "displacement-drive-by-blocks";
+
 /// The figures, their studies, values and panels looked up.
 pub(super) fn check(
     spec: &Spec,
-    (studies, fits): (&[Study], &[Fit]),
+    all: Known<'_>,
     kinds: &[&str],
 ) -> Result<Vec<FigureSpec>, Complaint> {
+    let studies = all.studies;
     let study = |name: &String, key: String| {
         let known = studies.iter().map(|s| s.name.as_str());
         studies
@@ -55,9 +63,10 @@ pub(super) fn check(
             let expected = one_of(&figure.kind, kinds.iter().copied());
             return Err(Complaint::new(key("kind"), format!("`{}`", figure.kind), expected));
         }
-        if let Some(fit) = fits.iter().find(|f| Some(&f.name) == figure.study.as_ref()) {
+        if let Some(recorded) = figure.study.as_ref().and_then(|name| Recorded::find(name, all)) {
             for (p, panel) in figure.panel.iter().enumerate() {
-                of_fit(panel, fit).map_err(|c| c.under(&format!("figure[{i}].panel[{p}]")))?;
+                of_record(panel, &recorded)
+                    .map_err(|c| c.under(&format!("figure[{i}].panel[{p}]")))?;
             }
             continue;
         }
@@ -93,24 +102,45 @@ pub(super) fn check(
     Ok(spec.figure.clone())
 }
 
-/// What a fit can show: its own record and simulations, and nothing of a study.
-fn of_fit(panel: &PanelSpec, fit: &Fit) -> Result<(), Complaint> {
-    if !SHOWS_OF_FITS.contains(&panel.show.as_str()) {
-        let expected = one_of(&panel.show, SHOWS_OF_FITS);
+/// A record with the rig of a fit or a search.
+struct Recorded<'a> {
+    recording: &'a Recording,
+    rig: &'a Rig,
+    /// The name of what was found.
+    found: &'static str,
+}
+
+impl<'a> Recorded<'a> {
+    fn find(name: &str, all: Known<'a>) -> Option<Self> {
+        let fit = all.fits.iter().find(|f| f.name == name);
+        let fit = fit.map(|f| Self { recording: &f.recording, rig: &f.rig, found: "fitted" });
+        let search = || all.discoveries.iter().find(|d| d.name == name).map(|d| &d.source);
+        fit.or_else(|| {
+            search().map(|s| Self { recording: &s.recording, rig: &s.rig, found: "found" })
+        })
+    }
+}
+
+/// What a fit or a search can show: its own record and simulations, and nothing of a study.
+fn of_record(panel: &PanelSpec, of: &Recorded<'_>) -> Result<(), Complaint> {
+    let searched = of.found == "found";
+    let more = if searched { &[RESIDUAL, BY_BLOCKS][..] } else { &[] };
+    if !SHOWS_OF_FITS.iter().chain(more).any(|known| *known == panel.show) {
+        let expected = one_of(&panel.show, SHOWS_OF_FITS.iter().chain(more).copied());
         return Err(Complaint::new("show", format!("`{}`", panel.show), expected));
     }
-    let has = |channel: &str| fit.recording.channels.contains_key(channel);
+    let has = |channel: &str| of.recording.channels.contains_key(channel);
     let there = match panel.show.as_str() {
         "loads-time" => has("force_1") && has("force_2"),
         "velocity-time" => has("velocity"),
-        "motor-speed-time" => has("velocity") && fit.rig.value("gear_ratio").is_some(),
+        "motor-speed-time" => has("velocity") && of.rig.value("gear_ratio").is_some(),
         _ => true,
     };
     if !there {
         let found = format!("`{}` of a record without it", panel.show);
         return Err(Complaint::new("show", found, "a channel of the record"));
     }
-    let known = ["record", "given", "fitted"];
+    let known = ["record", "given", of.found];
     if let Some((i, of)) = panel.of.iter().enumerate().find(|(_, of)| !known.contains(&of.as_str()))
     {
         return Err(Complaint::new(format!("of[{i}]"), format!("`{of}`"), one_of(of, known)));
@@ -122,7 +152,9 @@ fn of_fit(panel: &PanelSpec, fit: &Fit) -> Result<(), Complaint> {
         ("from", !panel.from.is_empty()),
     ];
     match foreign.iter().find(|(_, given)| *given) {
-        Some((key, _)) => Err(Complaint::new(*key, "a value", "none in a panel of a fit")),
+        Some((key, _)) => {
+            Err(Complaint::new(*key, "a value", "none in a panel of a fit or a search"))
+        }
         None => between(panel, true),
     }
 }

@@ -1,15 +1,13 @@
 //! One fit as checked: its files read, its truth looked up.
 
+use super::source::{self, Source};
 use crate::{error::Complaint, spec::FitSpec};
 use identify::{
     Recording, Rig,
     fit::{Data, Options, binding},
 };
-use record::{FitRecord, Key, read_sheet, sha256};
-use std::{collections::BTreeMap, fs, path::Path, sync::OnceLock};
-
-/// The largest rig file, truth file or record that is read [bytes].
-const LARGEST: u64 = 1 << 30;
+use record::{FitRecord, Key};
+use std::{collections::BTreeMap, path::Path, sync::OnceLock};
 
 /// A rig's free parameters, to be fitted to a record.
 #[derive(Debug)]
@@ -52,30 +50,9 @@ pub struct Fitted {
 impl Fit {
     /// Reads and checks its files, which `folder` holds.
     pub(super) fn check(spec: &FitSpec, folder: &Path) -> Result<Self, Complaint> {
-        let rig_text = text(folder, &spec.rig).map_err(|c| c.under("rig"))?;
-        let rig = Rig::parse(&rig_text)
-            .map_err(|e| Complaint::new("rig", format!("`{}`: {e}", spec.rig), "a rig file"))?;
-        let wrong = |found: String| {
-            Complaint::new("record", format!("`{}`: {found}", spec.record), "a record of this rig")
-        };
-        let path = folder.join(&spec.record);
-        let bytes = bytes(folder, &spec.record).map_err(|c| c.under("record"))?;
-        let sheet = read_sheet(&path).map_err(|e| wrong(e.to_string()))?;
-        let columns = |name: &str| sheet.column(name).map_err(|e| e.to_string());
-        let recording = Recording::new(&rig, &columns).map_err(|e| wrong(e.to_string()))?;
-        let truth = match &spec.truth {
-            None => BTreeMap::new(),
-            Some(name) => {
-                let text = text(folder, name).map_err(|c| c.under("truth"))?;
-                truth(&text, &rig).map_err(|found| {
-                    Complaint::new(
-                        "truth",
-                        format!("`{name}`: {found}"),
-                        "a truth file of `record`",
-                    )
-                })?
-            }
-        };
+        let Source { file, rig, recording, data, content } =
+            Source::read(&spec.record, &spec.rig, folder)?;
+        let truth = source::truth(spec.truth.as_ref(), folder, |text| truth(text, &rig))?;
         if let Some(window) = spec.window.filter(|w| !(w.is_finite() && *w > 0.0)) {
             return Err(Complaint::new("window", window.to_string(), "a time [s]"));
         }
@@ -83,14 +60,14 @@ impl Fit {
             name: spec.name.clone(),
             title: spec.title.clone(),
             text: spec.text.clone(),
-            file: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-            data: Data::of(&rig, &recording),
-            content: format!("{} {}", sha256(&bytes), sha256(rig_text.as_bytes())),
             options: options(spec),
             done: OnceLock::new(),
+            truth: truth.unwrap_or_default(),
+            file,
+            data,
+            content,
             rig,
             recording,
-            truth,
         })
     }
 
@@ -126,22 +103,6 @@ fn options(spec: &FitSpec) -> Options {
         bootstrap: 0,
         ..usual
     }
-}
-
-fn bytes(folder: &Path, name: &str) -> Result<Vec<u8>, Complaint> {
-    let wrong =
-        |found: String| Complaint::new("", found, "a file, as seen from the experiment's folder");
-    let path = folder.join(name);
-    let about = fs::metadata(&path).map_err(|e| wrong(format!("`{name}`: {e}")))?;
-    if !about.is_file() || about.len() > LARGEST {
-        return Err(wrong(format!("`{name}`, no ordinary file or above {LARGEST} bytes")));
-    }
-    fs::read(&path).map_err(|e| wrong(format!("`{name}`: {e}")))
-}
-
-fn text(folder: &Path, name: &str) -> Result<String, Complaint> {
-    String::from_utf8(bytes(folder, name)?)
-        .map_err(|_| Complaint::new("", format!("`{name}`, which is no text"), "a TOML file"))
 }
 
 /// The parameters of the rig's own names that a truth file holds.

@@ -1,6 +1,6 @@
 //! What is measured and judged, as checked.
 
-use super::{Fit, Point, Study, input, judged_fit as fit, methods, study};
+use super::{Known, Point, Study, input, judged_record as of_record, methods, study};
 use crate::{
     checks::{CHECKS, Check},
     error::{Complaint, one_of},
@@ -11,16 +11,27 @@ use integrate::Corners;
 use simulation::Method;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Among what a subject's index counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Whose {
+    /// The studies.
+    Study,
+    /// The fits.
+    Fit,
+    /// The searches for what a model lacks.
+    Discovery,
+}
+
 /// What a quantity or a check is taken of: a study at some points of its sweep.
 #[derive(Debug, Clone)]
 pub struct Subject {
-    /// The study's index, or the fit's.
+    /// The index of the study, the fit or the search.
     pub study: usize,
-    /// Whether it is a fit.
-    pub of_fit: bool,
+    /// Which of them it is.
+    pub of: Whose,
     /// The points' indices; all of them if none was named.
     pub points: Vec<usize>,
-    /// What a check is told to expect, and what of a fit is meant; empty if it needs no telling.
+    /// What a check is told to expect, and what of a fit or a search is meant; empty if it needs no telling.
     pub expect: String,
     /// The numbers that a quantity or a check takes besides, by their keys.
     pub arguments: BTreeMap<String, Vec<f64>>,
@@ -104,8 +115,8 @@ pub(super) struct Judged {
     pub(super) irreproducible: Vec<Irreproducible>,
 }
 
-pub(super) fn check(spec: &Spec, studies: &[Study], fits: &[Fit]) -> Result<Judged, Complaint> {
-    let measures = measures(spec, studies, fits)?;
+pub(super) fn check(spec: &Spec, all: Known<'_>) -> Result<Judged, Complaint> {
+    let measures = measures(spec, all)?;
     let mut claims = Vec::new();
     for (i, written) in spec.claim.iter().enumerate() {
         for id in crate::judge::placeholders(&written.why) {
@@ -117,7 +128,7 @@ pub(super) fn check(spec: &Spec, studies: &[Study], fits: &[Fit]) -> Result<Judg
             let key = format!("claim[{i}].figure");
             return Err(Complaint::new(key, format!("`{}`", written.figure), expected));
         }
-        let claim = claim(written, &measures, (studies, fits));
+        let claim = claim(written, &measures, all);
         claims.push(claim.map_err(|c| c.under(&format!("claim[{i}]")))?);
     }
     let mut seen = BTreeSet::new();
@@ -127,14 +138,15 @@ pub(super) fn check(spec: &Spec, studies: &[Study], fits: &[Fit]) -> Result<Judg
     }
     let mut rules = Vec::new();
     for (i, written) in spec.irreproducible.iter().enumerate() {
-        let rule = irreproducible(written, studies);
+        let rule = irreproducible(written, all.studies);
         rules.push(rule.map_err(|c| c.under(&format!("irreproducible[{i}]")))?);
     }
     Ok(Judged { measures, claims, irreproducible: rules })
 }
 
 /// The quantities to measure, each looked up for its study's model.
-fn measures(spec: &Spec, studies: &[Study], fits: &[Fit]) -> Result<Vec<Measure>, Complaint> {
+fn measures(spec: &Spec, all: Known<'_>) -> Result<Vec<Measure>, Complaint> {
+    let studies = all.studies;
     let mut measures: Vec<Measure> = Vec::new();
     for (i, written) in spec.measure.iter().enumerate() {
         let under = |c: Complaint| c.under(&format!("measure[{i}]"));
@@ -142,8 +154,8 @@ fn measures(spec: &Spec, studies: &[Study], fits: &[Fit]) -> Result<Vec<Measure>
             let found = format!("`{}`", written.id);
             return Err(under(Complaint::new("id", found, "a plain id of its own")));
         }
-        if let Some(fit) = fits.iter().position(|f| f.name == written.study) {
-            measures.push(fit::measure(written, (fit, &fits[fit])).map_err(under)?);
+        if let Some(measure) = of_record::measure(written, all) {
+            measures.push(measure.map_err(under)?);
             continue;
         }
         let mut what = written.what.clone();
@@ -222,14 +234,11 @@ fn subject(
     let chosen = study.selected(&select)?;
     let place = |label: &str| study.points.iter().position(|p| p.label == label);
     let points = chosen.iter().filter_map(|point| place(&point.label)).collect();
-    Ok(Subject { study: index, of_fit: false, points, expect: expect.to_owned(), arguments })
+    let of = Whose::Study;
+    Ok(Subject { study: index, of, points, expect: expect.to_owned(), arguments })
 }
 
-fn claim(
-    written: &ClaimSpec,
-    measures: &[Measure],
-    (studies, fits): (&[Study], &[Fit]),
-) -> Result<Claim, Complaint> {
+fn claim(written: &ClaimSpec, measures: &[Measure], all: Known<'_>) -> Result<Claim, Complaint> {
     let ids = || measures.iter().map(|m| m.id.as_str());
     let find = |key: &str, id: &str| {
         measures
@@ -239,9 +248,7 @@ fn claim(
     };
     let decision = match (&written.measure, &written.check) {
         (Some(id), None) => Decision::Measure(find("measure", id)?),
-        (None, Some(table)) => {
-            decided(table, studies, fits).map_err(|complaint| complaint.under("check"))?
-        }
+        (None, Some(table)) => decided(table, all).map_err(|complaint| complaint.under("check"))?,
         (None, None) if written.qualitative || written.under_specified.is_some() => {
             Decision::Nothing
         }
@@ -261,10 +268,10 @@ fn claim(
 }
 
 /// The check that a claim names, told what it needs.
-fn decided(table: &toml::Table, studies: &[Study], fits: &[Fit]) -> Result<Decision, Complaint> {
-    let study = input::text(table, "study")?;
-    if let Some(fit) = fits.iter().position(|f| f.name == study) {
-        return fit::check(table, fit);
+fn decided(table: &toml::Table, all: Known<'_>) -> Result<Decision, Complaint> {
+    let (study, studies) = (input::text(table, "study")?, all.studies);
+    if let Some(check) = of_record::check(table, study, all) {
+        return check;
     }
     let name = input::text(table, "name")?;
     let model = studies[find_study(study, studies)?].model.name;

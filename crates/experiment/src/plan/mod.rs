@@ -1,20 +1,25 @@
 //! An experiment as checked: every name resolved, every number in its range, every case listed.
 
 mod answer;
+mod discovery;
 mod figures;
 mod fit;
 mod input;
 mod judged;
-mod judged_fit;
+mod judged_record;
 mod methods;
 mod panel;
+mod source;
 mod study;
 mod sweep;
 
 pub use answer::{Answers, Exact};
+pub use discovery::{Discovered, Discovery, Hidden};
+pub(crate) use figures::{BY_BLOCKS, RESIDUAL};
 pub use fit::{Fit, Fitted};
-pub use judged::{Claim, Decision, Irreproducible, Measure, Subject};
+pub use judged::{Claim, Decision, Irreproducible, Measure, Subject, Whose};
 pub use methods::control_name;
+pub use source::Source;
 pub use study::Study;
 pub use sweep::Point;
 pub(crate) use sweep::angular;
@@ -52,6 +57,8 @@ pub struct Plan {
     pub studies: Vec<Study>,
     /// The fits to records.
     pub fits: Vec<Fit>,
+    /// The searches for what a model lacks.
+    pub discoveries: Vec<Discovery>,
     /// Every case, in the order of the tables.
     pub cases: Vec<Case>,
     /// The figures, their studies and solvers resolved.
@@ -155,12 +162,14 @@ fn check(
 ) -> Result<Plan, Complaint> {
     unique("study", spec.study.iter().map(|s| &s.name))?;
     unique("fit", spec.fit.iter().map(|s| &s.name))?;
+    unique("discover", spec.discover.iter().map(|s| &s.name))?;
     unique("figure", spec.figure.iter().map(|s| &s.name))?;
     for (key, text) in [("title", &spec.title), ("paper", &spec.paper), ("text", &spec.text)] {
         readable(text).map_err(|c| c.under(key))?;
     }
-    if spec.study.is_empty() && spec.fit.is_empty() {
-        return Err(Complaint::new("study", "none", "at least one [[study]] or [[fit]]"));
+    if spec.study.is_empty() && spec.fit.is_empty() && spec.discover.is_empty() {
+        let expected = "at least one [[study]], [[fit]] or [[discover]]";
+        return Err(Complaint::new("study", "none", expected));
     }
     let budget = spec.budget.unwrap_or(BUDGET);
     if !(1.0..=1e12).contains(&budget) {
@@ -178,17 +187,19 @@ fn check(
         let found = format!("{} cases", cases.len());
         return Err(Complaint::new("study", found, format!("at most {MOST_CASES}")));
     }
-    let fits = fits(spec, folder)?;
-    let judged = judged::check(spec, &studies, &fits)?;
+    let (fits, discoveries) = (fits(spec, folder)?, discoveries(spec, folder)?);
+    let known = Known { studies: &studies, fits: &fits, discoveries: &discoveries };
+    let judged = judged::check(spec, known)?;
     let plan = Plan {
         name: name.to_owned(),
         spec_hash: record::sha256(text.as_bytes()),
         title: spec.title.clone(),
         paper: spec.paper.clone(),
         text: spec.text.clone(),
-        figures: figures::check(spec, (&studies, &fits), kinds)?,
+        figures: figures::check(spec, known, kinds)?,
         studies,
         fits,
+        discoveries,
         cases,
         measures: judged.measures,
         claims: judged.claims,
@@ -212,10 +223,33 @@ fn fits(spec: &Spec, folder: &Path) -> Result<Vec<Fit>, Complaint> {
     Ok(fits)
 }
 
+/// The searches, each of a name that no study and no fit has.
+fn discoveries(spec: &Spec, folder: &Path) -> Result<Vec<Discovery>, Complaint> {
+    let mut all = Vec::new();
+    for (i, written) in spec.discover.iter().enumerate() {
+        let key = format!("discover[{i}]");
+        let mut others = spec.study.iter().map(|s| &s.name).chain(spec.fit.iter().map(|f| &f.name));
+        if others.any(|name| *name == written.name) {
+            let found = format!("`{}`, the name of a study or a fit", written.name);
+            return Err(Complaint::new(format!("{key}.name"), found, "a name of its own"));
+        }
+        all.push(Discovery::check(written, folder).map_err(|c| c.under(&key))?);
+    }
+    Ok(all)
+}
+
+/// What figures, measures and checks can be of.
+#[derive(Clone, Copy)]
+pub(crate) struct Known<'a> {
+    studies: &'a [Study],
+    fits: &'a [Fit],
+    discoveries: &'a [Discovery],
+}
+
 /// What has no answer, as the travel to a force that is never reached, is found before anything runs.
 fn answerable(plan: &Plan) -> Result<(), Complaint> {
     // What has to be solved for is not: that takes its time, and a run tells.
-    let quick = |s: &Subject| !s.of_fit && plan.studies[s.study].plant.is_none();
+    let quick = |s: &Subject| s.of == Whose::Study && plan.studies[s.study].plant.is_none();
     for (i, measure) in plan.measures.iter().enumerate().filter(|(_, m)| quick(&m.subject)) {
         (measure.quantity.measure)(plan, &measure.subject).map_err(|e| {
             Complaint::new(format!("measure[{i}].what"), e, "a quantity this model has")

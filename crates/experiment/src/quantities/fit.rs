@@ -1,19 +1,12 @@
 //! Quantities of a fit: its parameters, and what its record and its simulations show without it.
 
-use super::{Measured, OF_A_FIT, Quantity};
+use super::{Measured, NORMAL, OF_A_FIT, PARAMETER, Quantity, SPRING};
 use crate::{
-    fits::{Motions, Which, ends, middle},
+    fits::{Motions, Runs, Which, ends, middle},
     plan::{Fit, Plan, Subject},
 };
 use record::{ModelRow, ParameterRow};
 use std::{f64::consts::TAU, ops::Range};
-
-/// The unit of a quantity that has the unit of the parameter which is meant.
-pub(crate) const PARAMETER: &str = "parameter";
-/// The unit of a spring's stiffness, also of one that turns a drum.
-pub(crate) const SPRING: &str = "spring";
-/// Half the width of a 95 % interval, in standard errors.
-const NORMAL: f64 = 1.959_963_984_540_054;
 
 macro_rules! quantity {
     ($const:ident, $name:literal, $unit:expr, $what:literal, ($method:literal, $second:literal), $takes:expr, $measure:expr) => {
@@ -77,7 +70,7 @@ quantity!(
     &["period"],
     |plan, subject| {
         let fit = at(plan, subject);
-        let drive = Motions::of(fit, Which::Record, 1.0)?.drive;
+        let drive = Motions::of(&Runs::of_fit(fit)?, Which::Record, 1.0)?.drive;
         let settled = &drive[settled(fit, subject)?];
         let mean = settled.iter().sum::<f64>() / settled.len() as f64;
         Ok(Measured::of(mean, parameter(fit, "offset")?.found))
@@ -93,7 +86,7 @@ quantity!(
     &["period"],
     |plan, subject| {
         let fit = at(plan, subject);
-        let drive = Motions::of(fit, Which::Record, 1.0)?.drive;
+        let drive = Motions::of(&Runs::of_fit(fit)?, Which::Record, 1.0)?.drive;
         let range = settled(fit, subject)?;
         let [low, high] = ends(&drive[range.clone()]);
         let [period] = subject.argument("period")?;
@@ -123,7 +116,7 @@ quantity!(
             let [low, high] = ends(q);
             high - low
         };
-        let motion = Motions::of(fit, which, 1.0)?;
+        let motion = Motions::of(&Runs::of_fit(fit)?, which, 1.0)?;
         let found = height(&motion.q[all.clone()]);
         if which == Which::Record {
             let [period] = subject.argument("period")?;
@@ -134,7 +127,7 @@ quantity!(
             measured.error = measured.error.max(quantum(fit));
             return Ok(measured);
         }
-        Ok(Measured::of(found, height(&Motions::of(fit, which, 100.0)?.q[all])))
+        Ok(Measured::of(found, height(&Motions::of(&Runs::of_fit(fit)?, which, 100.0)?.q[all])))
     }
 );
 
@@ -149,9 +142,9 @@ quantity!(
         let fit = at(plan, subject);
         let which = Which::of(&subject.expect)?;
         let range = settled(fit, subject)?;
-        let record = Motions::of(fit, Which::Record, 1.0)?;
+        let record = Motions::of(&Runs::of_fit(fit)?, Which::Record, 1.0)?;
         let distance = |finer: f64| -> Result<f64, String> {
-            let q = Motions::of(fit, which, finer)?.q;
+            let q = Motions::of(&Runs::of_fit(fit)?, which, finer)?.q;
             let shift = middle(&q[range.clone()]) - middle(&record.q[range.clone()]);
             let square = |i: usize| (q[i] - record.q[i] - shift).powi(2);
             Ok((range.clone().map(square).sum::<f64>() / range.len() as f64).sqrt())

@@ -1,6 +1,7 @@
 //! What can be measured: one entry for each quantity, with the two ways it is obtained.
 
 mod dahl;
+pub(crate) mod discovery;
 pub(crate) mod fit;
 mod input;
 pub(crate) mod lugre;
@@ -16,6 +17,17 @@ use crate::plan::{Plan, Study, Subject, angular};
 
 /// The model of quantities and checks that are made for fits.
 pub(crate) const OF_A_FIT: &str = "fit";
+/// The model of those that are made for searches for what a model lacks.
+pub(crate) const OF_A_DISCOVERY: &str = "discover";
+
+/// The unit of a quantity that has the unit of the parameter which is meant.
+pub(crate) const PARAMETER: &str = "parameter";
+/// The unit of a quantity that has the unit of the channel which is meant.
+pub(crate) const CHANNEL: &str = "channel";
+/// The unit of a spring's stiffness, also of one that turns a drum.
+pub(crate) const SPRING: &str = "spring";
+/// Half the width of a 95 % interval, in standard errors.
+pub(crate) const NORMAL: f64 = 1.959_963_984_540_054;
 
 /// A measured value with an honest bound of its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -145,6 +157,12 @@ pub const QUANTITIES: &[Quantity] = &[
     fit::LOOP_MISFIT,
     fit::HELD_OUT_ERROR,
     fit::INTERVALS_WITH_TRUTH,
+    discovery::VALUE,
+    discovery::TAKEN_AWAY,
+    discovery::LEVEL_BEFORE,
+    discovery::LEVEL_REFIT,
+    discovery::LEVEL_AFTER,
+    discovery::GAP_AFTER,
 ];
 
 #[cfg(test)]

@@ -7,7 +7,8 @@ mod sampling;
 mod series;
 mod signs;
 
-pub(crate) use series::{median_step, noise};
+pub(crate) use series::median_step;
+pub use series::noise;
 
 use crate::recording::{Columns, FEWEST_ROWS, quantum_at_drum, to_si, usable};
 use crate::rig::{Kind, Rig};

@@ -37,7 +37,7 @@ pub(crate) fn median_step(time: &[f64]) -> f64 {
 /// is taken. The spread is that of the median size, which corners and outliers do not move. A signal that is
 /// sampled very coarsely (ωT above some 0.5) still leaves something and the noise comes out too large; one
 /// that changes by less than its quantum from sample to sample leaves nothing, and the noise comes out as 0.
-pub(crate) fn noise(values: &[f64]) -> f64 {
+pub fn noise(values: &[f64]) -> f64 {
     let mut differences = values.to_vec();
     let mut least = f64::INFINITY;
     for order in 1..=7_u32 {

@@ -2,9 +2,13 @@
 
 use crate::{
     Rig,
+    effects::{self, Key, Shape, Term},
     march::{Balance, Contact, Model, Real},
 };
 use duhem::Parameter;
+
+/// The effect that makes Coulomb's friction Dahl's.
+const PRESLIDING: &str = "presliding";
 
 /// Standard gravity as the rig file's format has it [m/s²].
 const GRAVITY: f64 = 9.81;
@@ -61,7 +65,35 @@ pub fn model<D: Real>(rig: &Rig, free: &dyn Fn(&str) -> Option<D>) -> Model<D> {
         _ => nothing,
     };
     let sigma_2 = free("sigma_2").unwrap_or_else(|| D::from(viscous(rig)));
-    Model { balance, contact: contact(rig, free), sigma_2, offset: plant("offset") }
+    Model {
+        balance,
+        contact: contact(rig, free),
+        sigma_2,
+        offset: plant("offset"),
+        radius: rig.plant.get("radius").copied().unwrap_or(1.0),
+        effects: terms(rig, free),
+    }
+}
+
+/// The effects that are part of the rig's model; one whose amounts are all 0, and stay so, is none: its states would
+/// shorten steps for nothing.
+pub(super) fn terms<D: Real>(rig: &Rig, free: &dyn Fn(&str) -> Option<D>) -> Vec<Term<D>> {
+    let of = |effect: &crate::Effect| {
+        let kind = effects::Kind::named(&effect.name)?;
+        let value = |key: &str| {
+            let given = effect.values.get(key).copied().unwrap_or(0.0);
+            free(&format!("{}.{key}", effect.name)).unwrap_or_else(|| D::from(given))
+        };
+        let mut amounts =
+            kind.about().keys.iter().filter(|key| key.shape == Shape::Amount).peekable();
+        let is_none = |key: &Key| {
+            effect.values.get(key.name) == Some(&0.0)
+                && free(&format!("{}.{}", effect.name, key.name)).is_none()
+        };
+        let neutral = amounts.peek().is_some() && amounts.all(is_none);
+        (!neutral).then(|| kind.term(&value))
+    };
+    rig.effects.iter().filter_map(of).collect()
 }
 
 /// The viscous coefficient of the nominal friction [N·s/m], LuGre's own among them.
@@ -92,6 +124,13 @@ fn contact<D: Real>(rig: &Rig, free: &dyn Fn(&str) -> Option<D>) -> Contact<D> {
         _ => Vec::new(),
     };
     match rig.friction.name.as_str() {
+        // What gives way before it slides is no longer Coulomb's.
+        "coulomb" if rig.effects.iter().any(|e| e.name == PRESLIDING) => Contact::Dahl {
+            f_c: of("f_c"),
+            sigma: free("presliding.sigma")
+                .unwrap_or_else(|| D::from(rig.value("presliding.sigma").unwrap_or(0.0))),
+            gamma: D::from(1.0),
+        },
         "coulomb" => Contact::Coulomb { f_c: of("f_c") },
         "dahl" => Contact::Dahl { f_c: of("f_c"), sigma: of("sigma"), gamma: of("gamma") },
         "lugre" => {
@@ -187,6 +226,10 @@ pub fn free(rig: &Rig, force: f64, speed: f64) -> Vec<Free> {
     for name in names(rig) {
         let given = value(rig, &name).unwrap_or(0.0);
         let scale = match name.as_str() {
+            _ if name.contains('.') => match key(&name) {
+                Some(key) if key.shape != Shape::Amount => Scale::Logarithm(given),
+                _ => Scale::Linear(effect_size(rig, &name, [force, speed])),
+            },
             "f_s" if given > f_c => Scale::Above(given - f_c),
             "f_s" => Scale::Above(0.1 * f_c),
             "v_s" if given > 0.0 => Scale::InverseSquare(given),
@@ -199,6 +242,25 @@ pub fn free(rig: &Rig, force: f64, speed: f64) -> Vec<Free> {
         all.push(Free { name, given, scale });
     }
     all
+}
+
+/// The key of an effect's parameter by its whole name.
+pub fn key(name: &str) -> Option<&'static Key> {
+    let (effect, key) = name.split_once('.')?;
+    effects::Kind::named(effect)?.about().keys.iter().find(|k| k.name == key)
+}
+
+/// The size in which an effect's amount moves: what it has, or a part of what there could be of it.
+fn effect_size(rig: &Rig, name: &str, [force, speed]: [f64; 2]) -> f64 {
+    let given = rig.value(name).unwrap_or(0.0).abs();
+    let size = key(name).map_or(1.0, |key| match key.measure {
+        effects::Measure::Force => force,
+        effects::Measure::Damping => force / speed,
+        effects::Measure::Drag => force / (speed * speed),
+        effects::Measure::Speed => speed,
+        _ => 1.0,
+    });
+    if given > 0.0 { given } else { 0.01 * size }
 }
 
 /// The names of the free parameters: those of the rig file, or all of the friction and the viscous coefficient
@@ -242,6 +304,7 @@ pub fn value(rig: &Rig, name: &str) -> Option<f64> {
         };
     }
     match rig.friction.parameters.0.get(name) {
+        _ if name.contains('.') => rig.value(name),
         Some(Parameter::Scalar(value)) => Some(*value),
         Some(Parameter::List(_)) => None,
         None if name == "sigma_2" => Some(rig.friction.sigma_2),
@@ -257,6 +320,13 @@ pub fn set(rig: &mut Rig, name: &str, to: f64) {
             && let Some(element) = values.get_mut(place)
         {
             *element = to;
+        }
+        return;
+    }
+    if let Some((effect, key)) = name.split_once('.') {
+        let effect = rig.effects.iter_mut().find(|e| e.name == effect);
+        if let Some(old) = effect.and_then(|e| e.values.get_mut(key)) {
+            *old = to;
         }
         return;
     }

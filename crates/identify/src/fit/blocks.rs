@@ -9,12 +9,12 @@ const BLOCK: f64 = 3.0;
 const LEAST: usize = 8;
 
 /// All samples as one window.
-pub(super) fn whole(data: &Data) -> Vec<Window> {
+pub fn whole(data: &Data) -> Vec<Window> {
     vec![Window::new(data, 0, data.time.len())]
 }
 
 /// Windows of `length` [s], or of 3 s, or an eighth of the record if that is less.
-pub(super) fn blocks(data: &Data, length: Option<f64>) -> Vec<Window> {
+pub fn blocks(data: &Data, length: Option<f64>) -> Vec<Window> {
     let n = data.time.len();
     let duration = data.time[n - 1] - data.time[0];
     let length = length.unwrap_or_else(|| BLOCK.min(duration / LEAST as f64));
@@ -34,7 +34,7 @@ pub(super) fn blocks(data: &Data, length: Option<f64>) -> Vec<Window> {
 ///
 /// Not every second one: a drive whose period is two windows would show its way up in one half and its way
 /// down in the other. The parity of a window's number in binary has no period.
-pub(super) fn split(windows: &[Window]) -> (Vec<Window>, Vec<Window>) {
+pub fn split(windows: &[Window]) -> (Vec<Window>, Vec<Window>) {
     let half = |odd: bool| {
         let mine = |k: &usize| (k.count_ones() % 2 == 1) == odd;
         (0..windows.len()).filter(mine).map(|k| windows[k].clone()).collect()

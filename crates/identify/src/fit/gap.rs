@@ -79,7 +79,7 @@ pub fn simulate(rig: &Rig, data: &Data, window: Option<f64>) -> Result<Simulated
         }
         None => Way::OneRun,
     };
-    let pieces = models::settled(&problem, &[]);
+    let pieces = models::settled(&problem, &[], None, 2);
     if pieces.iter().any(|p| p.motion.q.is_empty()) {
         return Err(FitError::NoMotion);
     }

@@ -1,12 +1,16 @@
 //! The friction force under an imposed motion: no equation of motion, the displacement does all.
 
-use crate::march::{Contact, Model, Real};
+use crate::{
+    effects::{Act, At},
+    march::{Contact, Model, Real, deflection},
+};
 
 /// Calls `see(i, F)` with the friction force [N] at every sample of the displacement `u` [m] at `time` [s].
 ///
-/// Between samples the velocity is constant, and every model has its exact answer; the velocity at a sample,
-/// on which the force depends besides, is that of the parabola through it and its neighbours. The contact
-/// starts with the force that was `seen` first.
+/// Between samples the displacement follows the cubic through the four samples around it, in pieces of constant
+/// velocity, on which every model has its exact answer; the velocity at a sample, on which the force depends
+/// besides, is that of the quartic through it and its neighbours. The contact starts with the force that was
+/// `seen` first.
 pub(super) fn forces<D: Real>(
     model: &Model<D>,
     time: &[f64],
@@ -14,27 +18,131 @@ pub(super) fn forces<D: Real>(
     seen: f64,
     see: &mut dyn FnMut(usize, D),
 ) {
-    let velocity = |i: usize| {
-        let (before, after) = (i.saturating_sub(1), (i + 1).min(u.len() - 1));
-        if before == after { 0.0 } else { (u[after] - u[before]) / (time[after] - time[before]) }
-    };
+    let corners = corners(u);
+    let velocity = |i: usize| velocity(time, (u, &corners), i);
     let viscous = |i: usize| model.sigma_2 * velocity(i) + model.offset;
     let mut z = model.contact.holding(-viscous(0) + seen);
     let mut direction = 0.0;
+    let mut aged = model.effects_from(0.0, &[]);
     for i in 0..u.len() {
+        let mut act = Act::none();
+        let dt = if i > 0 { time[i] - time[i - 1] } else { 0.0 };
+        let step = if i > 0 { u[i] - u[i - 1] } else { 0.0 };
+        let base = aged.clone();
+        let mut now = at(model, (time[i], dt), (u[i], step / dt.max(f64::MIN_POSITIVE)));
+        now.held = model.contact.held(&z);
+        if !model.effects.is_empty() {
+            act = model.acts(&now, &base, &mut aged);
+        }
         if i > 0 {
-            let step = u[i] - u[i - 1];
-            slide(&model.contact, &mut z, step, step / (time[i] - time[i - 1]));
-            if step != 0.0 {
-                direction = step.signum();
+            let mut last = u[i - 1];
+            for piece in 1..=PIECES {
+                let share = piece as f64 / PIECES as f64;
+                let next = if piece == PIECES { u[i] } else { between((u, &corners), i, share) };
+                slide(
+                    &model.contact,
+                    &mut z,
+                    next - last,
+                    ((next - last) * PIECES as f64 / dt, act.rise),
+                );
+                last = next;
+            }
+            if velocity(i) != 0.0 {
+                direction = velocity(i).signum();
             }
         }
-        see(i, force(&model.contact, &z, velocity(i), direction) + viscous(i));
+        if !model.effects.is_empty() {
+            // What depends on the velocity depends on that of the sample, what slides on that of the step.
+            let now = At { v: D::from(velocity(i)), dt: 0.0, ..now };
+            let here = model.acts(&now, &aged, &mut base.clone());
+            act = Act { force: here.force, more: here.more, rise: here.rise, ..act };
+            act.risen(model.contact.level(), model.contact.bristles());
+        }
+        let own = force(&model.contact, &z, (velocity(i), act.rise), direction);
+        let sign = own.re().partial_cmp(&0.0).map_or(0.0, |order| f64::from(order as i8));
+        let grown = own + own * (act.more + act.skew * sign) + act.dry * direction;
+        see(i, grown + act.force + viscous(i));
+    }
+}
+
+/// Samples that are this evenly spaced tell the velocity to fourth order [of the sampling time].
+const EVEN: f64 = 1e-3;
+
+/// A second difference so many times as large as those around it is a corner.
+const SHARP: f64 = 8.0;
+
+/// Whether the displacement `u` has a corner at each sample: its second difference stands out from those two and three
+/// samples away. No smooth curve is led across it.
+pub fn corners(u: &[f64]) -> Vec<bool> {
+    let bend = |i: usize| match (i.checked_sub(1), u.get(i + 1)) {
+        (Some(before), Some(after)) => (after - 2.0 * u[i] + u[before]).abs(),
+        _ => 0.0,
+    };
+    let around = |i: usize| {
+        let far = [2, 3].into_iter().flat_map(|k| [i.checked_sub(k), Some(i + k)]);
+        far.flatten().map(bend).fold(0.0, f64::max)
+    };
+    (0..u.len()).map(|i| bend(i) > SHARP * around(i) && bend(i) > 0.0).collect()
+}
+
+/// The velocity [m/s] at sample `i`: of the quartic through five samples, or of the parabola through three where they
+/// are too few, not evenly spaced, or a corner is among them; next to a corner, of the line on this side of it.
+fn velocity(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> f64 {
+    let (mut before, mut after) = (i.saturating_sub(1), (i + 1).min(u.len() - 1));
+    if corners[after] && !corners[before] && i > before {
+        after = i;
+    } else if corners[before] && !corners[after] && after > i {
+        before = i;
+    }
+    if before == after {
+        return 0.0;
+    }
+    let near = (u[after] - u[before]) / (time[after] - time[before]);
+    if i < 2 || i + 2 >= u.len() || after - before != 2 {
+        return near;
+    }
+    let (far, wide) = (time[i + 2] - time[i - 2], time[after] - time[before]);
+    if (far - 2.0 * wide).abs() > EVEN * wide || corners[i - 1..i + 2].contains(&true) {
+        return near;
+    }
+    (4.0 * near - (u[i + 2] - u[i - 2]) / far) / 3.0
+}
+
+/// The pieces of constant velocity from sample to sample.
+const PIECES: usize = 4;
+
+/// The displacement at a `share` of the way from sample `i − 1` to `i`, by the cubic through four samples; the way is
+/// straight at the ends of a record, next to a corner, and where nothing moves.
+fn between((u, corners): (&[f64], &[bool]), i: usize, share: f64) -> f64 {
+    let (a, b) = (u[i - 1], u[i]);
+    let straight = a + (b - a) * share;
+    if i < 2 || i + 1 >= u.len() || a == b || corners[i] || corners[i - 1] {
+        return straight;
+    }
+    let (before, after) = (u[i - 2], u[i + 1]);
+    // Newton's form: second differences on both sides.
+    let (left, right) = (before - 2.0 * a + b, a - 2.0 * b + after);
+    let bend = share * (share - 1.0) / 6.0;
+    straight + bend * ((2.0 - share) * left + (1.0 + share) * right)
+}
+
+/// The instant as a law sees it.
+fn at<D: Real>(model: &Model<D>, (t, dt): (f64, f64), (q, v): (f64, f64)) -> At<D> {
+    At {
+        t,
+        dt,
+        drive: D::from(0.0),
+        q: D::from(q),
+        v: D::from(v),
+        radius: 1.0,
+        f_c: model.contact.level(),
+        grain: model.contact.grain(),
+        held: D::from(1.0),
     }
 }
 
 /// The states after the displacement has moved by `step` [m] at constant `speed` [m/s].
-fn slide<D: Real>(contact: &Contact<D>, z: &mut [D], step: f64, speed: f64) {
+fn slide<D: Real>(contact: &Contact<D>, z: &mut [D], step: f64, (speed, rise): (f64, D)) {
     if step == 0.0 {
         return;
     }
@@ -42,7 +150,7 @@ fn slide<D: Real>(contact: &Contact<D>, z: &mut [D], step: f64, speed: f64) {
         Contact::None | Contact::Coulomb { .. } => {}
         Contact::LuGre { f_c, f_s, v_s, sigma_0, .. } => {
             let s = v_s.recip() * speed;
-            let r = (*f_c + (*f_s - *f_c) * (-s * s).exp()) / *sigma_0;
+            let r = deflection([*f_c, *f_s, *sigma_0], s) + rise / *sigma_0;
             let end = r * step.signum();
             z[0] = end + (z[0] - end) * (-r.recip() * step.abs()).exp();
         }
@@ -87,14 +195,14 @@ fn decayed<D: Real>(w: D, path: D, gamma: D) -> D {
 }
 
 /// The force [N] without the viscous part; `direction` is that of the last motion.
-fn force<D: Real>(contact: &Contact<D>, z: &[D], v: f64, direction: f64) -> D {
+fn force<D: Real>(contact: &Contact<D>, z: &[D], (v, rise): (f64, D), direction: f64) -> D {
     match contact {
         Contact::None => D::from(0.0),
         Contact::Coulomb { f_c } => *f_c * direction,
         Contact::Dahl { .. } => z[0],
         Contact::LuGre { f_c, f_s, v_s, sigma_0, sigma_1 } => {
             let s = v_s.recip() * v;
-            let r = (*f_c + (*f_s - *f_c) * (-s * s).exp()) / *sigma_0;
+            let r = deflection([*f_c, *f_s, *sigma_0], s) + rise / *sigma_0;
             *sigma_0 * z[0] + *sigma_1 * (-z[0] / r * v.abs() + v)
         }
         Contact::MaxwellSlip { k, .. } => {

@@ -179,7 +179,7 @@ fn bound(
             *x += (moved * c[(j, i)] / c[(i, i)]).clamp(-1.0, 1.0);
         }
         there[i] = found.x[i] + sign * away;
-        let patience = Patience { misfit: 0.005 * limit, simulations: 24 };
+        let patience = Patience { misfit: 0.005 * limit, share: 0.0, simulations: 24 };
         let mut near = search(problem, (&there, Some(&pieces)), Some(i), &patience);
         if near.misfit - found.misfit > 1.1 * limit {
             // The windows' starts may have gone astray; from where they were seen they may not.

@@ -1,12 +1,33 @@
 //! The load cells of a drum, which see the springs and no friction.
 
-use super::problem::Problem;
+use super::{binding::terms, problem::Problem};
+use crate::effects::{Load, Term};
 use nalgebra::DMatrix;
+use num_dual::Dual64;
 
 impl Problem<'_> {
+    /// The load cells, and then what holds some of the variables near their values.
+    pub fn loads(&self, x: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
+        let (mut residuals, jacobian) = self.cells(x);
+        if self.priors.is_empty() {
+            return (residuals, jacobian);
+        }
+        let rows = residuals.len();
+        let mut all = jacobian.resize_vertically(rows + self.priors.len(), 0.0);
+        for (i, (name, value, spread)) in self.priors.iter().enumerate() {
+            let place = self.free.iter().position(|free| free.name == *name);
+            let off = place.map_or(0.0, |j| (x[j] - self.free[j].variable(*value)) / spread);
+            residuals.push(off);
+            if let Some(j) = place {
+                all[(rows + i, j)] = spread.recip();
+            }
+        }
+        (residuals, all)
+    }
+
     /// Weighed residuals of the load cells against the measured angle, F₁ = F₁₀ + k₁rθ and F₂ = F₂₀ − k₂rθ, and
-    /// their derivatives.
-    pub(super) fn loads(&self, x: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
+    /// their derivatives by the springs', the preloads and the radius.
+    pub fn cells(&self, x: &[f64]) -> (Vec<f64>, DMatrix<f64>) {
         let (Some(loads), Some(angle)) = (&self.data.loads, &self.data.displacement) else {
             return (Vec::new(), DMatrix::zeros(0, self.free.len()));
         };
@@ -14,8 +35,10 @@ impl Problem<'_> {
             let free = self.free.iter().position(|f| f.name == name);
             (free.map_or_else(|| self.rig.plant[name], |i| self.free[i].value(x[i])), free)
         };
-        let r = value("radius").0;
+        let (r, r_free) = value("radius");
         let samples: Vec<usize> = self.windows.iter().flat_map(|w| w.first..w.end).collect();
+        let by_effects = self.effects_by_free(x);
+        let given = terms::<Dual64>(self.rig, &|_| None);
         let mut jacobian = DMatrix::zeros(2 * samples.len(), self.free.len());
         let mut residuals = Vec::with_capacity(2 * samples.len());
         for (cell, side) in [(0, 1.0), (1, -1.0)] {
@@ -24,9 +47,21 @@ impl Problem<'_> {
             for i in &samples {
                 let stretch = side * r * angle.values[*i];
                 let row = residuals.len();
-                residuals
-                    .push((f + k * stretch - loads[cell].values[*i]) / self.weights.loads[cell]);
-                for (free, by) in [(k_free, stretch), (f_free, 1.0)] {
+                let load = Load { cell, t: self.data.time[*i], stretch, radius: r };
+                let nominal = f + k * stretch;
+                let shown = |terms: &[Term<Dual64>]| {
+                    let all = terms.iter();
+                    all.fold(Dual64::from(nominal), |force, e| e.kind.load(&e.p, &load, force))
+                };
+                let force = match by_effects.first() {
+                    Some((_, terms)) => shown(terms).re,
+                    None => shown(&given).re,
+                };
+                residuals.push((force - loads[cell].values[*i]) / self.weights.loads[cell]);
+                for (j, terms) in &by_effects {
+                    jacobian[(row, *j)] = shown(terms).eps / self.weights.loads[cell];
+                }
+                for (free, by) in [(k_free, stretch), (f_free, 1.0), (r_free, k * stretch / r)] {
                     if let Some(j) = free {
                         let slope = self.free[j].slope(self.free[j].value(x[j]));
                         jacobian[(row, j)] = by * slope / self.weights.loads[cell];
@@ -35,6 +70,24 @@ impl Problem<'_> {
             }
         }
         (residuals, jacobian)
+    }
+
+    /// The effects with derivatives by one of the free parameters of an effect each, and its place.
+    fn effects_by_free(&self, x: &[f64]) -> Vec<(usize, Vec<Term<Dual64>>)> {
+        let of_effect = (0..self.free.len()).filter(|j| self.free[*j].name.contains('.'));
+        let one = |j: usize| {
+            let number = |name: &str| {
+                let i = self.free.iter().position(|f| f.name == name)?;
+                let value = self.free[i].value(x[i]);
+                let mut number = Dual64::from_re(value);
+                if i == j {
+                    number.eps = self.free[i].slope(value);
+                }
+                Some(number)
+            };
+            (j, terms(self.rig, &number))
+        };
+        of_effect.map(one).collect()
     }
 }
 

@@ -5,19 +5,21 @@
 //! fit minimises is the sum of the squared residuals of every channel, each divided by the channel's noise.
 
 pub mod binding;
-mod blocks;
+pub mod blocks;
 mod bootstrap;
 pub mod data;
 mod estimate;
 mod gap;
 mod imposed;
+pub use imposed::corners;
 mod interval;
 mod loads;
-mod models;
+pub mod models;
 pub mod newton;
+mod piece;
 pub mod problem;
 pub mod search;
-mod starts;
+pub mod starts;
 mod way;
 mod weights;
 pub mod window;
@@ -252,6 +254,18 @@ fn problem<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     Ok(Problem { free, ..problem })
 }
 
+impl<'a> Problem<'a> {
+    /// The problem with all samples in one run, its weights the channels' noises.
+    pub fn of(rig: &'a Rig, data: &'a Data) -> Result<Self, FitError> {
+        problem(rig, data)
+    }
+
+    /// The same with nothing free.
+    pub fn unfree(rig: &'a Rig, data: &'a Data) -> Result<Self, FitError> {
+        unfree(rig, data)
+    }
+}
+
 /// The same with nothing free.
 fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     if data.time.len() < 8 {
@@ -284,8 +298,11 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
         closed_loop,
         memory,
         counts,
+        priors: Vec::new(),
         weights,
+        spread: &[],
         tolerance: tolerance(data),
+        slopes: 0.0,
     })
 }
 

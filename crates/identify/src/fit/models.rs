@@ -2,10 +2,10 @@
 
 use super::{
     Data, Options, binding, blocks,
-    problem::{Problem, Weights},
+    problem::{Lead, Piece, Problem, Weights},
     search::End,
     starts,
-    window::Window,
+    window::{START, Window},
 };
 use crate::Rig;
 use duhem::Parameter;
@@ -171,7 +171,7 @@ fn judged(
     }
     let rms = |problem: &Problem<'_>, some: &[Window]| {
         let samples: usize = some.iter().map(Window::len).sum();
-        let pieces = settled(problem, &found.x);
+        let pieces = settled(problem, &found.x, None, 2);
         let sum: f64 = pieces.iter().flat_map(|p| &p.residuals).map(|r| r * r).sum();
         (sum / (samples * problem.channels()).max(1) as f64).sqrt()
     };
@@ -181,18 +181,106 @@ fn judged(
     Some(Candidate { name, held_out_error, trained_error, free, rig })
 }
 
-/// The windows at `x`, their starts fitted.
-pub(super) fn settled(problem: &Problem<'_>, x: &[f64]) -> Vec<super::problem::Piece> {
-    let mut pieces = problem.pieces(x, None);
-    for _ in 0..2 {
+/// The windows at `x`, their starts fitted, so many times; they begin where they did in `pieces` of a simulation
+/// nearby, or, if there are none, as they were seen.
+pub fn settled(
+    problem: &Problem<'_>,
+    x: &[f64],
+    pieces: Option<&[Piece]>,
+    times: usize,
+) -> Vec<Piece> {
+    let staying = |p: &Piece| Lead::staying(p.start, x.len());
+    let leads: Option<Vec<Lead>> = pieces.map(|pieces| pieces.iter().map(staying).collect());
+    let mut pieces = problem.pieces(x, leads.as_ref().map(|leads| (x, leads.as_slice())));
+    for _ in 0..times {
         let leads: Vec<_> = problem.all_slopes(x, &pieces).into_iter().map(|s| s.lead).collect();
-        let next = problem.pieces(x, Some((x, &leads)));
-        let sum = |p: &super::problem::Piece| p.residuals.iter().map(|r| r * r).sum::<f64>();
-        for (piece, next) in pieces.iter_mut().zip(next) {
-            if sum(&next) < sum(piece) {
+        for (piece, next) in pieces.iter_mut().zip(problem.pieces(x, Some((x, &leads)))) {
+            if next.misfit() < piece.misfit() {
                 *piece = next;
             }
         }
     }
     pieces
+}
+
+/// The same, each window's start followed until it gains no more than this share, so many times at most.
+pub fn converged(
+    problem: &Problem<'_>,
+    x: &[f64],
+    pieces: Option<&[Piece]>,
+    most: usize,
+) -> Vec<Piece> {
+    const GAINED: f64 = 0.02;
+    let first = settled(problem, x, pieces, 0);
+    let one = |(window, mut piece): (&Window, Piece)| {
+        for _ in 0..most {
+            let lead = problem.slopes(x, window, &piece).lead;
+            let next = problem.piece(x, window, lead.start);
+            let before = piece.misfit();
+            if next.misfit() < before {
+                piece = next;
+            }
+            if piece.misfit() >= (1.0 - GAINED) * before {
+                break;
+            }
+        }
+        piece
+    };
+    problem.windows.par_iter().zip(first).map(one).collect()
+}
+
+/// A window that is so much worse than the middle one began in another state of the contact.
+const ASTRAY: f64 = 5.0;
+
+/// Where else a contact may begin, from what the run-up says, of its natural size.
+const ELSEWHERE: [f64; 8] = [-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0];
+
+/// How much faster or slower it may begin, of the spread of the start.
+const FASTER: f64 = 0.2;
+
+/// The share of a window in which its start is judged, and how many starts are followed to the end.
+const EARLY: usize = 5;
+const TRIED: usize = 2;
+
+/// `pieces` once more where they went astray: each begun in several states of the contact and at other speeds, the
+/// best one kept.
+pub fn rescued(problem: &Problem<'_>, x: &[f64], pieces: Vec<Piece>) -> Vec<Piece> {
+    let mean = |p: &Piece| p.misfit() / p.residuals.len().max(1) as f64;
+    let mut sorted: Vec<f64> = pieces.iter().map(mean).collect();
+    sorted.sort_by(f64::total_cmp);
+    let Some(middle) = sorted.get(sorted.len() / 2).copied() else { return pieces };
+    let all: Vec<(&Window, Piece)> = problem.windows.iter().zip(pieces).collect();
+    let one = |(window, piece): (&Window, Piece)| {
+        if mean(&piece) < ASTRAY * middle.max(1.0) || problem.data.force.is_some() {
+            return piece;
+        }
+        let [q, v, _] = window.start;
+        let near = FASTER * window.spread[1];
+        let shifts = ELSEWHERE.into_iter().map(|shift| [q, v, shift]);
+        // Whether it rests or creeps is a leap under Coulomb friction.
+        let speeds = [0.0, v - near, v + near, -v].into_iter().map(|v| [q, v, 0.0]);
+        // How a window began shows soon.
+        let head = window.beginning(window.len() / EARLY);
+        let early = |start| problem.piece(x, &head, start).misfit();
+        let mut starts: Vec<([f64; START], f64)> =
+            shifts.chain(speeds).map(|start| (start, early(start))).collect();
+        starts.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let mut best = piece;
+        for (start, _) in starts.into_iter().take(TRIED) {
+            let mut next = problem.piece(x, window, start);
+            for _ in 0..2 {
+                let lead = problem.slopes(x, window, &next).lead;
+                let led = problem.piece(x, window, lead.start);
+                if led.misfit() >= next.misfit() {
+                    break;
+                }
+                next = led;
+            }
+            if next.misfit() < best.misfit() {
+                best = next;
+            }
+        }
+        best
+    };
+    all.into_par_iter().map(one).collect()
 }

@@ -1,11 +1,14 @@
 //! The misfit of a model to a record, and how it changes with every free parameter.
 
-pub use super::weights::Weights;
 use super::{
     binding::{Free, Scale, given, model},
     data::Data,
     imposed::forces,
     window::{START, Window},
+};
+pub use super::{
+    piece::{Lead, Piece, Slopes},
+    weights::Weights,
 };
 use crate::{
     Rig,
@@ -36,59 +39,17 @@ pub struct Problem<'a> {
     pub memory: f64,
     /// The samples that count; all if empty.
     pub counts: Vec<bool>,
+    /// Free parameters that are held near a value [its unit], and how near, in the fit's variable.
+    pub priors: Vec<(String, f64, f64)>,
     /// What a residual of each channel is divided by [its unit]: displacement, velocity, input, force, loads.
     pub weights: Weights,
+    /// By how much more than by its noise a sample may be off: its displacement (or force) and its velocity, each in
+    /// the channel's unit; none if empty.
+    pub spread: &'a [[f64; 2]],
     /// The steps' tolerance, of the spans of displacement and velocity [1].
     pub tolerance: f64,
-}
-
-/// One window, simulated.
-#[derive(Debug, Clone)]
-pub struct Piece {
-    /// Its start: see [`START`].
-    pub start: [f64; START],
-    /// Its motion; the force [N] in place of the displacement if the motion is imposed.
-    pub motion: Motion,
-    /// Weighed residuals, sample by sample and channel by channel, then those of the start.
-    pub residuals: Vec<f64>,
-}
-
-/// How the start of a window follows the parameters: from where, by how much more, by how much per variable;
-/// and what the window's misfit was there.
-#[derive(Debug, Clone)]
-pub(super) struct Lead {
-    pub(super) was: [f64; START],
-    pub(super) misfit: f64,
-    pub(super) start: [f64; START],
-    pub(super) by: DMatrix<f64>,
-}
-
-impl Lead {
-    /// A start that does not move.
-    pub(super) fn staying(start: [f64; START], variables: usize) -> Self {
-        Self { was: start, misfit: f64::INFINITY, start, by: DMatrix::zeros(START, variables) }
-    }
-
-    /// The start at the variables `x`, where the lead was taken at `x_0`.
-    fn at(&self, x: &[f64], x_0: &[f64]) -> [f64; START] {
-        let more = |j: usize| -> f64 {
-            x.iter().zip(x_0).enumerate().map(|(i, (x, x_0))| self.by[(j, i)] * (x - x_0)).sum()
-        };
-        std::array::from_fn(|j| self.start[j] + more(j))
-    }
-}
-
-impl Piece {
-    /// The sum of its squared residuals [1].
-    pub(super) fn misfit(&self) -> f64 {
-        self.residuals.iter().map(|r| r * r).sum()
-    }
-}
-
-/// A window's derivatives, its start projected out.
-pub(super) struct Slopes {
-    pub(super) jacobian: DMatrix<f64>,
-    pub(super) lead: Lead,
+    /// That of the motion along which derivatives are taken [1]: shorter steps than this do not make them better.
+    pub slopes: f64,
 }
 
 /// How well the time of a sample is known, in sampling times.
@@ -172,13 +133,18 @@ impl Problem<'_> {
     fn state<D: Real>(&self, model: &Model<D>, window: &Window, start: [D; START]) -> Start<D> {
         let [q, v, shift] = start;
         // By the nominal memory: the answer must not jump where a parameter passes a limit.
-        let z = if window.run_up.abs() > FORGOTTEN * self.memory {
+        let z = if let Some(z) = model.contact.slipped(&window.path) {
+            z
+        } else if window.run_up.abs() > FORGOTTEN * self.memory {
             model.contact.sliding(window.run_up.signum() * v.re().abs())
         } else {
             let u = D::from(self.data.input[window.first]);
             model.contact.holding(model.drive(u, q, v))
         };
-        Start { q, v, z: model.contact.shifted(z, shift) }
+        let mut z = model.contact.shifted(z, shift);
+        let way = if window.run_up == 0.0 { 0.0 } else { window.run_up.signum() };
+        z.extend(model.effects_from(way, &window.path));
+        Start { q, v, z }
     }
 
     /// Simulates one window from `start` at the variables `x`.
@@ -195,14 +161,15 @@ impl Problem<'_> {
                 force.values[window.first],
                 &mut |i, f| {
                     motion.q.push(f);
-                    let off = (f - force.values[window.first + i]) / self.weights.force;
-                    residuals.push(self.share(window.first + i) * off);
+                    let i = window.first + i;
+                    let off = (f - force.values[i]) / self.first_weight(i);
+                    residuals.push(self.share(i) * off);
                 },
             );
             return Piece { start, motion, residuals };
         }
         let state = self.state(&model, window, start);
-        let spans = self.tolerance();
+        let spans = self.spans(self.tolerance);
         let motion = march(&model, &self.drive(window), &self.data.time[range], &state, &spans);
         let motion = motion.unwrap_or_default();
         for i in 0..window.len() {
@@ -222,7 +189,7 @@ impl Problem<'_> {
             out.push(share * if residual.is_finite() { residual } else { NO_MOTION });
         };
         if let Some(seen) = &self.data.displacement {
-            push(&motion.q, seen.values[i], self.weights.displacement);
+            push(&motion.q, seen.values[i], self.first_weight(i));
         }
         if let Some(seen) = &self.data.velocity {
             push(&motion.v, seen.values[i], self.velocity_weight(&seen.values, i));
@@ -242,22 +209,30 @@ impl Problem<'_> {
     /// A sample in a break-away is worth what its time is: without this a few of them would decide the fit.
     fn velocity_weight(&self, values: &[f64], i: usize) -> f64 {
         let (before, after) = (i.saturating_sub(1), (i + 1).min(values.len() - 1));
-        self.weights.velocity.hypot(TIMING * 0.5 * (values[after] - values[before]))
+        let own = self.weights.velocity.hypot(TIMING * 0.5 * (values[after] - values[before]));
+        self.spread.get(i).map_or(own, |more| own.hypot(more[1]))
+    }
+
+    /// The standard deviation of a sample of the displacement, or of the force.
+    fn first_weight(&self, i: usize) -> f64 {
+        let imposed = self.data.force.is_some();
+        let own = if imposed { self.weights.force } else { self.weights.displacement };
+        self.spread.get(i).map_or(own, |more| own.hypot(more[0]))
     }
 
     /// What a step may be wrong by.
-    fn tolerance(&self) -> Tolerance {
+    fn spans(&self, tolerance: f64) -> Tolerance {
         let q = self.data.displacement.as_ref().map_or(1.0, |d| d.span.max(d.noise));
         let v = self.data.speed().max(1e-12);
         // A step of order 3 gets shorter with the cube root of what it may be wrong by.
-        let finer = (1e-5 / self.tolerance).cbrt().max(1.0);
+        let finer = (1e-5 / tolerance).cbrt().max(1.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within usize")]
         let steps = (finer * (8 * self.data.time.len() + 10_000) as f64) as usize;
-        Tolerance { q: self.tolerance * q, v: self.tolerance * v, z: self.tolerance, steps }
+        Tolerance { q: tolerance * q, v: tolerance * v, z: tolerance, steps }
     }
 
     /// The derivatives of a window's residuals by the variables `x`, and by its start.
-    pub(super) fn slopes(&self, x: &[f64], window: &Window, piece: &Piece) -> Slopes {
+    pub fn slopes(&self, x: &[f64], window: &Window, piece: &Piece) -> Slopes {
         let columns = self.free.len() + START;
         let mut jacobian = DMatrix::zeros(self.rows(window), columns);
         match columns {
@@ -331,7 +306,7 @@ impl Problem<'_> {
                 force.values[window.first],
                 &mut |i, f| {
                     if self.share(window.first + i) > 0.0 {
-                        write(i, &f, self.weights.force);
+                        write(i, &f, self.first_weight(window.first + i));
                     }
                 },
             );
@@ -345,16 +320,26 @@ impl Problem<'_> {
         let start = std::array::from_fn(|i| seed(piece.start[i], n + i));
         let state = self.state(&model, window, start);
         let channels = self.channels();
-        let tape: &Tape = &piece.motion.tape;
+        let longer;
+        let mut tape: &Tape = &piece.motion.tape;
+        if self.slopes > self.tolerance {
+            let model = self.model(x);
+            let state = self.state(&model, window, piece.start);
+            let spans = self.spans(self.slopes);
+            let drive = self.drive(window);
+            longer = march(&model, &drive, &self.data.time[range.clone()], &state, &spans);
+            tape = longer.as_ref().map_or(tape, |motion| &motion.tape);
+        }
         if tape.samples() != window.len() {
             return;
         }
-        replay(&model, &self.drive(window), tape, &state, &mut |i, q, v, u| {
+        let drive = (&self.drive(window), &self.data.time[range]);
+        replay(&model, drive, tape, &state, &mut |i, q, v, u| {
             let mut row = i * channels;
             if self.share(window.first + i) == 0.0 {
                 return;
             }
-            write(row, &q, self.weights.displacement);
+            write(row, &q, self.first_weight(window.first + i));
             if let Some(seen) = &self.data.velocity {
                 row += 1;
                 write(row, &v, self.velocity_weight(&seen.values, window.first + i));
@@ -366,7 +351,7 @@ impl Problem<'_> {
     }
 
     /// Every window at the variables `x`, its start as `leads` have it, or as it was seen.
-    pub(super) fn pieces(&self, x: &[f64], at: Option<(&[f64], &[Lead])>) -> Vec<Piece> {
+    pub fn pieces(&self, x: &[f64], at: Option<(&[f64], &[Lead])>) -> Vec<Piece> {
         self.windows
             .par_iter()
             .enumerate()
@@ -385,7 +370,7 @@ impl Problem<'_> {
     }
 
     /// The derivatives of all `pieces`.
-    pub(super) fn all_slopes(&self, x: &[f64], pieces: &[Piece]) -> Vec<Slopes> {
+    pub fn all_slopes(&self, x: &[f64], pieces: &[Piece]) -> Vec<Slopes> {
         self.windows.par_iter().zip(pieces).map(|(w, piece)| self.slopes(x, w, piece)).collect()
     }
 }

@@ -38,12 +38,14 @@ pub enum End {
 pub struct Patience {
     /// Change of the misfit [1]; a standard error changes it by 1.
     pub misfit: f64,
+    /// The same as a share of the misfit [1]: the larger one ends the search.
+    pub share: f64,
     /// Simulations.
     pub simulations: usize,
 }
 
 /// Enough for the last fit.
-pub const TO_THE_END: Patience = Patience { misfit: 0.05, simulations: 40 };
+pub const TO_THE_END: Patience = Patience { misfit: 0.05, share: 0.0, simulations: 40 };
 
 /// The slope of the misfit along any variable above which a search has not converged, in that variable's standard
 /// errors as if it were the only one.
@@ -63,6 +65,10 @@ struct Search<'p, 'd> {
     at: RefCell<Option<(Vec<f64>, Vec<Lead>)>>,
     simulations: usize,
     derivatives: Cell<usize>,
+    /// The simulations that it may take, whatever the method would like, and the best variables so far with their
+    /// misfit.
+    most: usize,
+    best: (Vec<f64>, f64),
 }
 
 impl Search<'_, '_> {
@@ -77,6 +83,16 @@ impl Search<'_, '_> {
         let windows: f64 = self.pieces.iter().flat_map(|p| &p.residuals).map(|r| r * r).sum();
         windows + self.problem.loads(&self.x).0.iter().map(|r| r * r).sum::<f64>()
     }
+
+    fn found(self, end: End) -> Found {
+        Found {
+            misfit: self.misfit(),
+            x: self.x.clone(),
+            end,
+            simulations: [self.simulations, self.derivatives.get()],
+            pieces: self.pieces,
+        }
+    }
 }
 
 impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_, '_> {
@@ -89,6 +105,12 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_, '_> {
             self.x[*i] = x[place];
         }
         self.simulate();
+        if self.most < usize::MAX {
+            let misfit = self.misfit();
+            if misfit < self.best.1 {
+                self.best = (self.x.clone(), misfit);
+            }
+        }
     }
 
     fn params(&self) -> DVector<f64> {
@@ -96,6 +118,9 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_, '_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
+        if self.simulations > self.most {
+            return None;
+        }
         let mut all: Vec<f64> =
             self.pieces.iter().flat_map(|p| p.residuals.iter().copied()).collect();
         all.extend(self.problem.loads(&self.x).0);
@@ -127,10 +152,38 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_, '_> {
 /// they did in `pieces` of a search nearby, or, if there are none, as they were seen.
 pub fn search(
     problem: &Problem<'_>,
-    (x, pieces): (&[f64], Option<&[Piece]>),
+    from: (&[f64], Option<&[Piece]>),
     fixed: Option<usize>,
     patience: &Patience,
 ) -> Found {
+    let (mut search, reason) = descended(problem, from, (fixed, usize::MAX), patience);
+    let end = end(&search, &reason);
+    search.simulate();
+    search.found(end)
+}
+
+/// The same with no more simulations than the patience says, where the method would take as many as there are
+/// variables, and without asking whether the end is a minimum, which costs a Jacobian.
+pub fn descend(
+    problem: &Problem<'_>,
+    from: (&[f64], Option<&[Piece]>),
+    patience: &Patience,
+) -> Found {
+    let (mut search, reason) = descended(problem, from, (None, patience.simulations), patience);
+    if matches!(reason, TerminationReason::User(_)) {
+        search.x.clone_from(&search.best.0);
+    }
+    search.most = usize::MAX;
+    search.simulate();
+    search.found(End::OutOfPatience)
+}
+
+fn descended<'p, 'd>(
+    problem: &'p Problem<'d>,
+    (x, pieces): (&[f64], Option<&[Piece]>),
+    (fixed, most): (Option<usize>, usize),
+    patience: &Patience,
+) -> (Search<'p, 'd>, TerminationReason) {
     let stays = |piece: &Piece| Lead::staying(piece.start, x.len());
     let at = pieces.map(|pieces| (x.to_vec(), pieces.iter().map(stays).collect()));
     let moving: Vec<usize> = (0..x.len()).filter(|i| Some(*i) != fixed).collect();
@@ -142,12 +195,16 @@ pub fn search(
         at: RefCell::new(at),
         simulations: 0,
         derivatives: Cell::new(0),
+        most,
+        best: (x.to_vec(), f64::INFINITY),
     };
     search.simulate();
+    search.best.1 = search.misfit();
     let rounds = patience.simulations.div_ceil(search.moving.len() + 1);
     let share = patience.misfit / search.misfit();
     // The library panics on a tolerance that is no number.
     let share = if share.is_finite() { share.clamp(1e-12, 1e-3) } else { 1e-3 };
+    let share = share.max(patience.share);
     let method = LevenbergMarquardt::new()
         .with_ftol(share)
         .with_xtol(1e-9)
@@ -155,17 +212,9 @@ pub fn search(
         .with_stepbound(FIRST_STEP)
         .with_scale_diag(false)
         .with_patience(rounds.max(1));
-    let (mut search, report) = method.minimize(search);
-    // The starts of the windows have followed along straight lines; the end is where they are.
-    let end = end(&search, &report.termination);
-    search.simulate();
-    Found {
-        misfit: search.misfit(),
-        x: search.x.clone(),
-        end,
-        simulations: [search.simulations, search.derivatives.get()],
-        pieces: search.pieces,
-    }
+    // The starts of the windows have followed along straight lines; a last simulation shows where they are.
+    let (search, report) = method.minimize(search);
+    (search, report.termination)
 }
 
 fn end(search: &Search<'_, '_>, reason: &TerminationReason) -> End {

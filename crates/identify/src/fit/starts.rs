@@ -14,10 +14,10 @@ use rayon::prelude::*;
 const FOLLOWED: usize = 2;
 
 /// A first look from each start.
-const LOOK: Patience = Patience { misfit: 1.0, simulations: 12 };
+const LOOK: Patience = Patience { misfit: 1.0, share: 0.0, simulations: 12 };
 
 /// The fit's variables at the nominal values; what is nominally zero begins at its own size.
-pub(super) fn nominal(problem: &Problem<'_>) -> Vec<f64> {
+pub fn nominal(problem: &Problem<'_>) -> Vec<f64> {
     let f_c = value(problem.rig, "f_c").unwrap_or(0.0);
     problem
         .free

@@ -20,7 +20,7 @@ const HOPELESS: f64 = 1e4;
 const SHORT: f64 = 1.0 / 8.0;
 
 /// The first look at a single run.
-const A_GLANCE: Patience = Patience { misfit: 1.0, simulations: 8 };
+const A_GLANCE: Patience = Patience { misfit: 1.0, share: 0.0, simulations: 8 };
 
 /// The way in which the record is simulated, and the minimum found so.
 pub(super) fn best_way<'a>(

@@ -16,6 +16,9 @@ pub struct Window {
     /// How far the displacement has come since it last turned [m], with its sign; 0 where it is at rest, for then
     /// the contact holds what force there is, wherever it came from.
     pub run_up: f64,
+    /// Where the displacement has turned [m] on its way to the window, and its start at last, without the turns inside
+    /// larger ones: what a contact that slips can remember. Empty if nobody asked.
+    pub path: Vec<f64>,
 }
 
 /// The numbers of a window's start: displacement [m], velocity [m/s], and how far the contact's states are from
@@ -35,7 +38,14 @@ impl Window {
     /// The window of these samples.
     pub fn new(data: &Data, first: usize, end: usize) -> Self {
         let Some(seen) = &data.displacement else {
-            return Self { first, end, start: [0.0; START], spread: [1.0; START], run_up: 0.0 };
+            return Self {
+                first,
+                end,
+                start: [0.0; START],
+                spread: [1.0; START],
+                run_up: 0.0,
+                path: Vec::new(),
+            };
         };
         let look = &seen.values[first..(first + LOOK).min(end)];
         let time = &data.time[first..(first + LOOK).min(end)];
@@ -56,7 +66,28 @@ impl Window {
             start: [q, v, 0.0],
             spread: [LOOSE * q_spread, LOOSE * v_spread, UNKNOWN],
             run_up: if v.abs() > MOVING * v_spread { come * same(come, v) } else { 0.0 },
+            path: Vec::new(),
         }
+    }
+
+    /// The same window, with where the displacement has turned before it, and with a start that is known no better
+    /// than the parabola through its first samples fits them: under a force that jumps they are no parabola.
+    #[must_use]
+    pub fn remembering(self, data: &Data) -> Self {
+        let Some(seen) = &data.displacement else { return self };
+        let path = path(&seen.values[..=self.first], 4.0 * seen.noise);
+        let end = (self.first + LOOK).min(self.end);
+        let (time, look) = (&data.time[self.first..end], &seen.values[self.first..end]);
+        let wider = bent(time, look) / seen.noise.max(f64::MIN_POSITIVE);
+        let [q, v, z] = self.spread;
+        let spread = if wider > BENT { [q * wider, v * wider, z] } else { self.spread };
+        Self { spread, path, ..self }
+    }
+
+    /// Its first samples alone, so many.
+    #[must_use]
+    pub fn beginning(&self, samples: usize) -> Self {
+        Self { end: self.end.min(self.first + samples.max(1)), ..self.clone() }
     }
 
     /// How many samples it has.
@@ -68,6 +99,22 @@ impl Window {
     pub fn is_empty(&self) -> bool {
         self.end <= self.first
     }
+}
+
+/// Samples that are off their parabola by so many times their noise are on none.
+const BENT: f64 = 3.0;
+
+/// By how much the values are off the parabola that fits them best, root mean square.
+fn bent(time: &[f64], values: &[f64]) -> f64 {
+    let scale = time.last().map_or(1.0, |t| (t - time[0]).max(f64::MIN_POSITIVE));
+    let a = nalgebra::DMatrix::from_fn(values.len(), 3, |i, j| {
+        let t = (time[i] - time[0]) / scale;
+        [1.0, t, t * t][j]
+    });
+    let b = nalgebra::DVector::from_fn(values.len(), |i, _| values[i] - values[0]);
+    let Ok(fitted) = a.clone().svd(true, true).solve(&b, 1e-12) else { return 0.0 };
+    let left = b - a * fitted;
+    (left.norm_squared() / (values.len() as f64 - 3.0).max(1.0)).sqrt()
 }
 
 /// 1 for two numbers of one sign, else 0.
@@ -116,4 +163,61 @@ fn run_up(values: &[f64], dead: f64) -> f64 {
         }
     }
     if last - low > high - last { last - low } else { -(high - last) }
+}
+
+/// The first value, the turns by more than `dead` that are not inside larger ones that followed, and the last value.
+///
+/// A loop that is closed leaves nothing behind (Madelung's rule), so that only turns of ever smaller swings are kept.
+fn path(values: &[f64], dead: f64) -> Vec<f64> {
+    let (Some(&first), Some(&last)) = (values.first(), values.last()) else { return Vec::new() };
+    let (mut path, mut tip) = (vec![first], first);
+    for &value in values {
+        let back = path.last().map_or(0.0, |before| tip - before);
+        if (value - tip) * back >= 0.0 && (back != 0.0 || (value - tip).abs() > dead) {
+            tip = value;
+        } else if (value - tip).abs() > dead {
+            path.push(tip);
+            tip = value;
+        }
+        // The swing to the tip is as large as the one before: both turns between are wiped out.
+        while let [.., a, b] = path[..] {
+            if path.len() < 3 || (tip - b).abs() < (a - b).abs() {
+                break;
+            }
+            path.truncate(path.len() - 2);
+        }
+    }
+    path.push(tip);
+    if (last - tip).abs() > 0.0 {
+        path.push(last);
+    }
+    path
+}
+
+#[cfg(test)]
+mod tests {
+    use super::path;
+
+    #[test]
+    fn a_slipping_element_remembers_the_same_from_the_turns_as_from_the_way() {
+        // Swings of many sizes, by three incommensurable tones.
+        let tone = |i: usize, w: f64| (w * i as f64).sin();
+        let way: Vec<f64> = (0..3000)
+            .map(|i| tone(i, 0.013) + 0.6 * tone(i, 0.0497) + 0.3 * tone(i, 0.171))
+            .collect();
+        let slipped = |way: &[f64], delta: f64| {
+            way.windows(2).fold(0.0, |z: f64, w| (z + w[1] - w[0]).clamp(-delta, delta))
+        };
+        for end in [500, 1234, 2000, 2999] {
+            let turns = path(&way[..=end], 0.0);
+            assert!(turns.len() < 40, "{} turns", turns.len());
+            for delta in [0.05, 0.2, 0.5, 0.9] {
+                let (long, short) = (slipped(&way[..=end], delta), slipped(&turns, delta));
+                assert!(
+                    (long - short).abs() < 1e-9,
+                    "{end} {delta}: {long} by the way, {short} by its turns"
+                );
+            }
+        }
+    }
 }

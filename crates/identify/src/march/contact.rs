@@ -44,6 +44,20 @@ pub enum Contact<D> {
     },
 }
 
+/// Beyond so many squared Stribeck velocities exp(−s²) is below the last digit of F_C; near its underflow the C
+/// library takes ten times as long over it.
+const FADED: f64 = 60.0;
+
+/// The deflection of a contact that has none in its model [m]: that of its asperities.
+const RIGID: f64 = 1e-5;
+
+/// The deflection r = (F_C + (F_S − F_C) exp(−s²))/σ₀ of LuGre's bristles in steady sliding [m] with `s` = v/v_S.
+pub(crate) fn deflection<D: Real>([f_c, f_s, sigma_0]: [D; 3], s: D) -> D {
+    let s_2 = s * s;
+    let more = if s_2.re() < FADED { (f_s - f_c) * (-s_2).exp() } else { D::from(0.0) };
+    (f_c + more) / sigma_0
+}
+
 impl<D: Real> Contact<D> {
     /// The number of states.
     pub fn states(&self) -> usize {
@@ -63,9 +77,21 @@ impl<D: Real> Contact<D> {
         }
     }
 
+    /// The force of slow sliding [N], 0 without friction.
+    pub fn level(&self) -> D {
+        match self {
+            Self::None => D::from(0.0),
+            Self::Coulomb { f_c } | Self::Dahl { f_c, .. } | Self::LuGre { f_c, .. } => *f_c,
+            Self::MaxwellSlip { k, delta } => {
+                k.iter().zip(delta).fold(D::from(0.0), |sum, (k, d)| sum + *k * *d)
+            }
+        }
+    }
+
     /// The friction force [N] of a stage with velocity `v` [m/s], without the jump of [`Self::dry`]; writes
-    /// its states z, which solve z = `base` + `dt` ż(z, v), dt [s] being the stage's own share of the step.
-    pub(super) fn stage(&self, base: &[D], dt: f64, v: D, z: &mut [D]) -> D {
+    /// its states z, which solve z = `base` + `dt` ż(z, v), dt [s] being the stage's own share of the step. Bristles
+    /// slip at a level that is higher by `rise` [N]; the others do not know of it.
+    pub(super) fn stage(&self, base: &[D], dt: f64, (v, rise): (D, D), z: &mut [D]) -> D {
         match self {
             Self::None | Self::Coulomb { .. } => D::from(0.0),
             Self::Dahl { f_c, sigma, gamma } => {
@@ -73,8 +99,7 @@ impl<D: Real> Contact<D> {
                 z[0]
             }
             Self::LuGre { f_c, f_s, v_s, sigma_0, sigma_1 } => {
-                let s = v / *v_s;
-                let r = (*f_c + (*f_s - *f_c) * (-s * s).exp()) / *sigma_0;
+                let r = deflection([*f_c, *f_s, *sigma_0], v / *v_s) + rise / *sigma_0;
                 let path = v * dt;
                 z[0] = (base[0] + path) / (size(path) / r + 1.0);
                 *sigma_0 * z[0] + *sigma_1 * (z[0] - base[0]) / dt
@@ -120,7 +145,7 @@ impl<D: Real> Contact<D> {
             Self::Dahl { f_c, .. } => vec![toward(*f_c)],
             Self::LuGre { f_c, f_s, v_s, sigma_0, .. } => {
                 let s = v_s.recip() * v;
-                vec![toward((*f_c + (*f_s - *f_c) * (-s * s).exp()) / *sigma_0)]
+                vec![toward(deflection([*f_c, *f_s, *sigma_0], s))]
             }
             Self::MaxwellSlip { delta, .. } => delta.iter().map(|d| toward(*d)).collect(),
         }
@@ -141,6 +166,20 @@ impl<D: Real> Contact<D> {
                 delta.iter().map(|d| *d * share).collect()
             }
         }
+    }
+
+    /// The states of elements that slip, after the displacement went from turn to turn of `path` [m]; none for other
+    /// contacts, and without a path.
+    pub fn slipped(&self, path: &[f64]) -> Option<Vec<D>> {
+        let Self::MaxwellSlip { delta, .. } = self else { return None };
+        if path.len() < 2 {
+            return None;
+        }
+        let one = |delta: &D| {
+            let moved = |z: D, step: &[f64]| within(z + (step[1] - step[0]), *delta);
+            path.windows(2).fold(D::from(0.0), moved)
+        };
+        Some(delta.iter().map(one).collect())
     }
 
     /// The states `z` shifted by `share` of their natural size, no element beyond its deadband.
@@ -165,6 +204,37 @@ impl<D: Real> Contact<D> {
             Self::LuGre { f_c, f_s, sigma_0, .. } => f_c.re().max(f_s.re()) / sigma_0.re(),
             Self::MaxwellSlip { delta, .. } => delta.iter().map(DualStruct::re).fold(0.0, f64::max),
         }
+    }
+
+    /// Whether the level at which it slips is one of its bristles' deflection.
+    pub(crate) fn bristles(&self) -> bool {
+        matches!(self, Self::LuGre { .. })
+    }
+
+    /// The shortest deflection [m] at which it slips.
+    pub(crate) fn grain(&self) -> f64 {
+        match self {
+            Self::None | Self::Coulomb { .. } => RIGID,
+            Self::LuGre { f_c, sigma_0, .. } => f_c.re() / sigma_0.re(),
+            Self::Dahl { .. } => self.memory(),
+            Self::MaxwellSlip { delta, .. } => {
+                delta.iter().map(DualStruct::re).fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    /// What share of its level the states `z` hold [1].
+    pub(crate) fn held(&self, z: &[D]) -> D {
+        let share = match self {
+            Self::None | Self::Coulomb { .. } => return D::from(1.0),
+            Self::Dahl { f_c, .. } => z[0] / *f_c,
+            Self::LuGre { f_c, sigma_0, .. } => z[0] * *sigma_0 / *f_c,
+            Self::MaxwellSlip { k, .. } => {
+                let force = k.iter().zip(z).fold(D::from(0.0), |sum, (k, z)| sum + *k * *z);
+                force / self.level()
+            }
+        };
+        size(share)
     }
 
     /// The natural size of the states [N] or [m].

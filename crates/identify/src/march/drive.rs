@@ -38,7 +38,7 @@ pub struct Feedback<'a> {
 
 impl Feedback<'_> {
     /// The command at sample `i` [V] from the displacements [m] now and two samples ago.
-    pub(super) fn command<D: Real>(&self, i: usize, [q, earlier]: [D; 2]) -> D {
+    pub fn command<D: Real>(&self, i: usize, [q, earlier]: [D; 2]) -> D {
         let dq = (q - earlier) / (2.0 * self.sample_time);
         let free = ((-q + self.reference[i]) * self.kp - dq) * self.kv;
         let clipped = if free.re() > self.limit {

@@ -13,18 +13,23 @@
 
 mod contact;
 mod drive;
+mod observer;
 mod plant;
 mod replay;
 mod run;
 mod stage;
 mod tableau;
+mod tape;
 
 pub use contact::Contact;
+pub(crate) use contact::deflection;
 pub use drive::{Drive, Feedback};
+pub use observer::{Measured, observe};
 pub use plant::{Balance, Model};
 pub(crate) use replay::part;
 pub use replay::replay;
-pub use run::{Motion, MotionError, Start, Tape, Tolerance, march};
+pub use run::{MotionError, Start, Tolerance, march};
+pub use tape::{Motion, Tape};
 
 use num_dual::{DualNum, DualStruct};
 

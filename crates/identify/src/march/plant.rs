@@ -1,6 +1,7 @@
 //! The plant as the march sees it: one equation for all five kinds.
 
 use super::{Contact, Real};
+use crate::effects::{Act, At, Sense, Term};
 
 /// What drives the plant beside friction: T = gain·u + constant − stiffness·q − damping·v − gravity·sin q.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,20 +31,136 @@ pub struct Model<D> {
     pub sigma_2: D,
     /// A constant force on the side of the friction [N].
     pub offset: D,
+    /// Radius of a drum [m], 1 for others.
+    pub radius: f64,
+    /// The effects that are part of the model.
+    pub effects: Vec<Term<D>>,
 }
 
 impl<D: Real> Model<D> {
-    /// The force [N] on the mass, all but the friction of the contact, at the input `u`.
+    /// The force [N] on the mass, all but the friction of the contact and of the effects, at the input `u`.
     pub fn drive(&self, u: D, q: D, v: D) -> D {
+        self.rest(self.driving(u), q, v)
+    }
+
+    /// What drives the plant [N] at the recorded input `u`.
+    pub(super) fn driving(&self, u: D) -> D {
+        let u = self.effects.iter().fold(u, |u, e| e.kind.input(&e.p, u));
+        let force = self.balance.gain * u;
+        self.effects.iter().fold(force, |force, e| e.kind.drive(&e.p, force))
+    }
+
+    /// The force on the mass [N] where the drive is `driving`.
+    fn rest(&self, driving: D, q: D, v: D) -> D {
         let b = &self.balance;
-        let mut force = b.gain * u + b.constant
-            - b.stiffness * q
-            - (b.damping + self.sigma_2) * v
-            - self.offset;
+        let mut force =
+            driving + b.constant - b.stiffness * q - (b.damping + self.sigma_2) * v - self.offset;
         if b.gravity.re() != 0.0 {
             force -= b.gravity * q.sin();
         }
         force
+    }
+
+    /// The mass [kg] that moves.
+    pub(super) fn mass(&self) -> D {
+        self.effects.iter().fold(self.balance.mass, |mass, e| e.kind.mass(&e.p, mass))
+    }
+
+    /// The number of states, the contact's and then the effects'.
+    pub fn states(&self) -> usize {
+        self.contact.states() + self.effects.iter().map(|e| e.kind.states()).sum::<usize>()
+    }
+
+    /// The force on the mass [N] at a stage that ends at `q` with the velocity `v`, its states from `base`
+    /// written to `z`; where Coulomb friction slides in the direction `way`, with its force.
+    pub(super) fn force(
+        &self,
+        stage: &Stage<D>,
+        base: &[D],
+        (q, v, way): (D, D, f64),
+        z: &mut [D],
+    ) -> D {
+        let driving = self.driving(stage.u);
+        let n = self.contact.states();
+        let mut force = self.rest(driving, q, v);
+        let dry = self.contact.dry();
+        if self.effects.is_empty() {
+            let slow = (v, D::from(0.0));
+            let friction = self.contact.stage(&base[..n], stage.dt, slow, &mut z[..n]);
+            if let (Some(f_c), true) = (dry, way != 0.0) {
+                force -= f_c * way;
+            }
+            return force - friction;
+        }
+        let (t, dt, radius) = (stage.t, stage.dt, self.radius);
+        let (f_c, grain, held) =
+            (self.contact.level(), self.contact.grain(), self.contact.held(&base[..n]));
+        let at = At { t, dt, drive: driving, q, v, radius, f_c, grain, held };
+        let mut all = self.acts(&at, &base[n..], &mut z[n..]);
+        let friction = self.contact.stage(&base[..n], stage.dt, (v, all.rise), &mut z[..n]);
+        all.risen(f_c, self.contact.bristles());
+        let sign = |x: f64| if x == 0.0 { 0.0 } else { x.signum() };
+        let grown = friction + friction * (all.more + all.skew * sign(friction.re()));
+        force -= grown + all.force;
+        if way != 0.0 {
+            let f_c = dry.unwrap_or(D::from(0.0));
+            force -= (f_c + f_c * (all.more + all.skew * way) + all.dry) * way;
+        }
+        force
+    }
+
+    /// What the effects add to the friction, all together.
+    pub(crate) fn acts(&self, at: &At<D>, base: &[D], z: &mut [D]) -> Act<D> {
+        let mut all = Act::none();
+        let mut first = 0;
+        for e in &self.effects {
+            let end = first + e.kind.states();
+            let act = e.kind.act(&e.p, at, &base[first..end], &mut z[first..end]);
+            all.force += act.force;
+            all.more += act.more;
+            all.skew += act.skew;
+            all.rise += act.rise;
+            all.dry += act.dry;
+            first = end;
+        }
+        all
+    }
+
+    /// Whether friction can hold whatever the velocity does next.
+    pub(super) fn sticks(&self) -> bool {
+        self.contact.dry().is_some() || self.effects.iter().any(|e| e.kind.dry())
+    }
+
+    /// The states of the effects after long sliding in the direction `way`, or at rest if it is 0.
+    pub fn effects_from(&self, way: f64, path: &[f64]) -> Vec<D> {
+        let with = self.effects.iter().filter(|e| e.kind.states() > 0);
+        with.map(|e| e.kind.start(&e.p, way, path)).collect()
+    }
+
+    /// The size of state `i`: the contact's own, 1 for those of the effects.
+    pub(super) fn size(&self, i: usize) -> f64 {
+        if i < self.contact.states() { self.contact.scale() } else { 1.0 }
+    }
+
+    /// By how much the input comes late [s], where it does.
+    pub(super) fn delay(&self) -> Option<D> {
+        self.effects.iter().find_map(|e| e.kind.delay(&e.p))
+    }
+
+    /// What the sensors show of the displacement and the velocity [m, m/s]; `memory` has a number for each effect.
+    pub(super) fn senses(
+        &self,
+        [q, v, moved]: [D; 3],
+        [rate, dt]: [f64; 2],
+        memory: &mut [D],
+    ) -> [D; 2] {
+        let mut now = [q, v];
+        for (e, memory) in self.effects.iter().zip(memory) {
+            let mut sense = Sense { q: now[0], v: now[1], moved, rate, dt, memory };
+            e.kind.sense(&e.p, &mut sense);
+            now = [sense.q, sense.v];
+        }
+        now
     }
 
     /// The same with every number turned into another kind.
@@ -61,6 +178,19 @@ impl<D: Real> Model<D> {
             contact: self.contact.map(&to),
             sigma_2: to(self.sigma_2),
             offset: to(self.offset),
+            radius: self.radius,
+            effects: self.effects.iter().map(|e| e.map(&to)).collect(),
         }
     }
+}
+
+/// Where and when a stage is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stage<D> {
+    /// Time since the record began [s].
+    pub(super) t: f64,
+    /// Its own share of the step, γh [s].
+    pub(super) dt: f64,
+    /// The recorded input at its time.
+    pub(super) u: D,
 }

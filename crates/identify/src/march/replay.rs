@@ -2,9 +2,11 @@
 
 use super::{
     Drive, Model, Start, Tape,
-    run::{Step, inputs},
-    stage::{Base, Share, excess},
+    plant::Stage,
+    run::{inputs, rate},
+    stage::{Base, excess},
     tableau::{A, C, GAMMA},
+    tape::Step,
 };
 use num_dual::{Derivative, DualSVec64, DualStruct};
 
@@ -14,7 +16,7 @@ use num_dual::{Derivative, DualSVec64, DualStruct};
 /// With G(v, p) = 0 the balance of a stage, ∂v/∂p = −(∂G/∂p)/(∂G/∂v).
 pub fn replay<const P: usize>(
     model: &Model<DualSVec64<P>>,
-    drive: &Drive<'_>,
+    (drive, time): (&Drive<'_>, &[f64]),
     tape: &Tape,
     start: &Start<DualSVec64<P>>,
     see: &mut dyn FnMut(usize, DualSVec64<P>, DualSVec64<P>, DualSVec64<P>),
@@ -23,19 +25,29 @@ pub fn replay<const P: usize>(
     let mut state = start.clone();
     let mut seen = Vec::with_capacity(3);
     let mut walker = Again::new(model);
-    let mut next = 0;
+    let mut memory = vec![DualSVec64::<P>::from(0.0); model.effects.len()];
+    let (mut next, mut before) = (0, state.q);
     for i in 0..samples {
         if seen.len() == 3 {
             seen.remove(0);
         }
         seen.push(state.q);
-        let ends = inputs(drive, i, &seen);
-        see(i, state.q, state.v, ends[0]);
+        let ends = inputs(drive, i, &seen, model.delay().map(|delay| (delay, time)));
+        if model.effects.is_empty() {
+            see(i, state.q, state.v, ends[0]);
+        } else {
+            let dt = if i == 0 { 0.0 } else { time[i] - time[i - 1] };
+            let rate = model.balance.gain.re() * rate(drive, time, i);
+            let moved = state.q - before;
+            let [q, v] = model.senses([state.q, state.v, moved], [rate, dt], &mut memory);
+            before = state.q;
+            see(i, q, v, ends[0]);
+        }
         if i + 1 < samples {
             let steps = &tape.steps[next..tape.until[i]];
             let dt: f64 = steps.iter().map(|s| s.h).sum();
             for step in steps {
-                walker.step(&mut state, step, dt, ends);
+                walker.step(&mut state, step, [dt, time[i]], ends);
             }
             next = tape.until[i];
         }
@@ -52,7 +64,7 @@ struct Again<'a, const P: usize> {
 impl<'a, const P: usize> Again<'a, P> {
     fn new(model: &'a Model<DualSVec64<P>>) -> Self {
         let zero = DualSVec64::<P>::from(0.0);
-        let none = vec![zero; model.contact.states()];
+        let none = vec![zero; model.states()];
         Self {
             model,
             base: Base { q: zero, v: zero, z: none.clone() },
@@ -65,7 +77,7 @@ impl<'a, const P: usize> Again<'a, P> {
         &mut self,
         state: &mut Start<DualSVec64<P>>,
         step: &Step,
-        dt: f64,
+        [dt, t]: [f64; 2],
         ends: [DualSVec64<P>; 2],
     ) {
         let (h, gh) = (step.h, GAMMA * step.h);
@@ -82,7 +94,8 @@ impl<'a, const P: usize> Again<'a, P> {
                 }
             }
             let u = ends[0] + (ends[1] - ends[0]) * (step.from + C[s] * h / dt);
-            let v = self.velocity(Share { dt: gh, u }, [step.v[s], step.way[s]]);
+            let stage = Stage { t: t + step.from * dt + C[s] * h, dt: gh, u };
+            let v = self.velocity(&stage, [step.v[s], step.way[s]]);
             (q_dot[s], v_dot[s]) = (v, (v - self.base.v) / gh);
             for (i, z) in self.z.iter().enumerate() {
                 self.z_dot[s][i] = (*z - self.base.z[i]) / gh;
@@ -96,15 +109,14 @@ impl<'a, const P: usize> Again<'a, P> {
     }
 
     /// The velocity of a stage with its derivatives; leaves the stage's states in `self.z`.
-    fn velocity(&mut self, share: Share<DualSVec64<P>>, [v, way]: [f64; 2]) -> DualSVec64<P> {
-        if let (Some(_), 0.0) = (self.model.contact.dry(), way) {
+    fn velocity(&mut self, stage: &Stage<DualSVec64<P>>, [v, way]: [f64; 2]) -> DualSVec64<P> {
+        let sticks = self.model.sticks();
+        if sticks && way == 0.0 {
             return DualSVec64::from(0.0);
         }
         let alone = DualSVec64::<P>::from_re(v).derivative(P - 1);
-        let mut balance = excess(self.model, &self.base, share, alone, &mut self.z);
-        if let Some(f_c) = self.model.contact.dry() {
-            balance += f_c * (share.dt * way);
-        }
+        let way = if sticks { way } else { 0.0 };
+        let balance = excess(self.model, &self.base, stage, (alone, way), &mut self.z);
         let slope = -part(&balance, P - 1).recip();
         let mut by = balance.eps.unwrap_generic(nalgebra::Const::<P>, nalgebra::U1) * slope;
         by[P - 1] = 0.0;

@@ -2,8 +2,10 @@
 
 use super::{
     Drive, Model,
-    stage::{Base, Seek, Share, velocity},
+    plant::Stage,
+    stage::{Base, Seek, velocity},
     tableau::{A, C, ERROR, GAMMA},
+    tape::{Motion, Step, Tape},
 };
 use crate::Hold;
 use num_dual::Dual64;
@@ -51,55 +53,6 @@ pub enum MotionError {
     },
 }
 
-/// One step as it was taken.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Step {
-    /// Where in its sample interval it starts, as a share of it.
-    pub(super) from: f64,
-    /// Its length [s].
-    pub(super) h: f64,
-    /// The velocity of each stage [m/s].
-    pub(super) v: [f64; 3],
-    /// The direction in which each stage slides, 0 where Coulomb friction held it.
-    pub(super) way: [f64; 3],
-    /// By what the derivatives of the velocity are multiplied at the end of the step: 1, but where Coulomb
-    /// friction turns or stops the motion there.
-    pub(super) turn: f64,
-}
-
-/// The steps of a motion, to go over once more.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Tape {
-    pub(super) steps: Vec<Step>,
-    /// How many steps there are up to each sample.
-    pub(super) until: Vec<usize>,
-}
-
-impl Tape {
-    /// How many steps there are.
-    pub fn steps(&self) -> usize {
-        self.steps.len()
-    }
-
-    /// How many samples the motion has; none if it did not get through.
-    pub fn samples(&self) -> usize {
-        if self.steps.is_empty() { 0 } else { self.until.len() + 1 }
-    }
-}
-
-/// A motion at the samples of a record.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Motion {
-    /// Displacement [m].
-    pub q: Vec<f64>,
-    /// Velocity [m/s].
-    pub v: Vec<f64>,
-    /// The input, as recorded or as the controller made it.
-    pub u: Vec<f64>,
-    /// The steps.
-    pub tape: Tape,
-}
-
 /// The last Newton step for a stage's velocity, of what the velocity may be wrong by.
 const NEAR: f64 = 1e-5;
 
@@ -119,27 +72,88 @@ pub fn march(
     for (i, t) in time.iter().enumerate() {
         motion.q.push(walker.q);
         motion.v.push(walker.v);
-        let ends = inputs(drive, i, &motion.q);
+        let ends = inputs(drive, i, &motion.q, model.delay().map(|delay| (delay, time)));
         motion.u.push(ends[0]);
         if let Some(next) = time.get(i + 1) {
             walker.interval(*t, next - t, ends, &mut motion.tape)?;
             motion.tape.until.push(motion.tape.steps.len());
         }
     }
+    if !model.effects.is_empty() {
+        seen(model, drive, time, &mut motion);
+    }
     Ok(motion)
 }
 
-/// The input at both ends of the interval that begins with sample `i`.
-pub(super) fn inputs<D: super::Real>(drive: &Drive<'_>, i: usize, q: &[D]) -> [D; 2] {
-    match drive {
-        Drive::Recorded { values, hold: Hold::ZeroOrder } => [D::from(values[i]); 2],
-        Drive::Recorded { values, hold: Hold::Linear } => {
+/// Turns displacement and velocity into what the sensors show of them.
+fn seen(model: &Model<f64>, drive: &Drive<'_>, time: &[f64], motion: &mut Motion) {
+    let mut memory = vec![0.0; model.effects.len()];
+    let mut before = motion.q[0];
+    for i in 0..motion.q.len() {
+        let (q, v) = (motion.q[i], motion.v[i]);
+        let dt = if i == 0 { 0.0 } else { time[i] - time[i - 1] };
+        let rate = model.balance.gain * rate(drive, time, i);
+        [motion.q[i], motion.v[i]] = model.senses([q, v, q - before], [rate, dt], &mut memory);
+        before = q;
+    }
+}
+
+/// How fast the input changes at sample `i`, over a few samples; 0 where the controller makes it.
+pub(super) fn rate(drive: &Drive<'_>, time: &[f64], i: usize) -> f64 {
+    const FAR: usize = 2;
+    let Drive::Recorded { values, .. } = drive else { return 0.0 };
+    let (before, after) = (i.saturating_sub(FAR), (i + FAR).min(values.len() - 1));
+    if after == before {
+        return 0.0;
+    }
+    (values[after] - values[before]) / (time[after] - time[before])
+}
+
+/// The input at both ends of the interval that begins with sample `i`; late by the `delay` where there is one.
+pub(super) fn inputs<D: super::Real>(
+    drive: &Drive<'_>,
+    i: usize,
+    q: &[D],
+    delay: Option<(D, &[f64])>,
+) -> [D; 2] {
+    match (drive, delay) {
+        (Drive::Recorded { values, hold }, Some((delay, time))) => {
+            late(values, *hold, i, (delay, time))
+        }
+        (Drive::Recorded { values, hold: Hold::ZeroOrder }, None) => [D::from(values[i]); 2],
+        (Drive::Recorded { values, hold: Hold::Linear }, None) => {
             [D::from(values[i]), D::from(values[(i + 1).min(values.len() - 1)])]
         }
-        Drive::Controlled(feedback) => {
+        (Drive::Controlled(feedback), _) => {
             let at = |back: usize| q[q.len() - 1 - back.min(q.len() - 1)];
             [feedback.command(i, [at(0), at(2)]); 2]
         }
+    }
+}
+
+/// The recorded input of a time `delay` [s] ago, at both ends of the interval that begins with sample `i`. One that
+/// is held is taken as its mean over the interval.
+fn late<D: super::Real>(
+    values: &[f64],
+    hold: Hold,
+    i: usize,
+    (delay, time): (D, &[f64]),
+) -> [D; 2] {
+    let next = (i + 1).min(values.len() - 1);
+    let dt = if next > i { time[next] - time[i] } else { 1.0 };
+    let share = delay / dt;
+    let whole = share.re().floor();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
+    let back = whole.clamp(0.0, 1e9) as usize;
+    let part = share - whole;
+    let at = |place: usize| D::from(values[place.saturating_sub(back)]);
+    let between = |place: usize| {
+        let before = D::from(values[place.saturating_sub(back + 1)]);
+        at(place) + (before - at(place)) * part
+    };
+    match hold {
+        Hold::Linear => [between(i), between(next)],
+        Hold::ZeroOrder => [between(i); 2],
     }
 }
 
@@ -168,7 +182,7 @@ struct Attempt {
 
 impl<'a> Walker<'a> {
     fn new(model: &'a Model<f64>, start: &Start<f64>, tolerance: &'a Tolerance) -> Self {
-        let n = model.contact.states();
+        let n = model.states();
         let none = vec![Dual64::from(0.0); n];
         Self {
             model,
@@ -202,8 +216,9 @@ impl<'a> Walker<'a> {
                 h => h,
             };
             loop {
-                let attempt = self.attempt([from, h, dt], ends, None);
-                let attempt = self.turned(attempt, [from, h, dt], ends);
+                let span = [from, h, dt, t];
+                let attempt = self.attempt(span, ends, None);
+                let attempt = self.turned(attempt, span, ends);
                 let enough = attempt.as_ref().is_some_and(|a| a.error <= 1.0);
                 let shortest = h <= SHORTEST * dt;
                 let taken = attempt.as_ref().is_some_and(|a| a.error.is_finite()) && shortest;
@@ -236,7 +251,7 @@ impl<'a> Walker<'a> {
     /// Coulomb friction slides the given `way`, or as it will.
     fn attempt(
         &mut self,
-        [from, h, dt]: [f64; 3],
+        [from, h, dt, t]: [f64; 4],
         ends: [f64; 2],
         way: Option<f64>,
     ) -> Option<Attempt> {
@@ -258,14 +273,14 @@ impl<'a> Walker<'a> {
             }
             (self.base.q, self.base.v) = (Dual64::from(base[0]), Dual64::from(base[1]));
             let u = ends[0] + (ends[1] - ends[0]) * ((from + C[s] * h) / dt);
-            let share = Share { dt: gh, u: Dual64::from(u) };
+            let stage = Stage { t: t + from + C[s] * h, dt: gh, u: Dual64::from(u) };
             let seek = Seek { guess: v, close: NEAR * self.tolerance.v, way };
-            let (root, way) = velocity(&self.probe, &self.base, share, seek, &mut self.z_probe)?;
+            let (root, way) = velocity(&self.probe, &self.base, &stage, seek, &mut self.z_probe)?;
             v = root;
             (step.v[s], step.way[s]) = (v, way);
             v_dot[s] = (v - base[1]) / gh;
             q = base[0] + gh * v;
-            self.states_of_stage(s, gh, v);
+            self.states_of_stage(s, &stage, (q, v));
         }
         let error = self.error(h, [step.v, v_dot]);
         (q.is_finite() && v.is_finite()).then_some(Attempt { step, q, v, error })
@@ -278,11 +293,13 @@ impl<'a> Walker<'a> {
     fn turned(
         &mut self,
         attempt: Option<Attempt>,
-        [from, h, dt]: [f64; 3],
+        [from, h, dt, t]: [f64; 4],
         ends: [f64; 2],
     ) -> Option<Attempt> {
-        let f_c = self.model.contact.dry();
-        let (Some(found), Some(f_c)) = (&attempt, f_c) else { return attempt };
+        let Some(found) = &attempt else { return attempt };
+        if !self.model.sticks() {
+            return attempt;
+        }
         let way = if self.v == 0.0 { found.step.way[0] } else { self.v.signum() };
         if way == 0.0 || found.step.way.iter().all(|w| *w == way) {
             return attempt;
@@ -290,13 +307,13 @@ impl<'a> Walker<'a> {
         let (mut short, mut long) = (0.0, h);
         let mut h = h;
         for _ in 0..60 {
-            let mut there = self.attempt([from, h, dt], ends, Some(way))?;
+            let mut there = self.attempt([from, h, dt, t], ends, Some(way))?;
             let slope = (there.v - self.v) / h;
             if there.v.abs() <= NEAR * self.tolerance.v || long - short <= f64::EPSILON * long {
                 let u = ends[0] + (ends[1] - ends[0]) * ((from + h) / dt);
-                let force = self.model.drive(u, there.q, 0.0);
-                let sticks = force.abs() <= f_c;
-                let (before, after) = (force - way * f_c, force + way * f_c);
+                let stage = Stage { t: t + from + h, dt: 0.0, u };
+                let [before, after] = [way, -way].map(|way| self.pull(&stage, there.q, way));
+                let sticks = before * way <= 0.0 && after * way >= 0.0;
                 there.step.turn = if sticks || before == 0.0 { 0.0 } else { after / before };
                 there.v = 0.0;
                 return Some(there);
@@ -312,14 +329,23 @@ impl<'a> Walker<'a> {
         None
     }
 
-    fn states_of_stage(&mut self, s: usize, gh: f64, v: f64) {
+    /// The force on the mass [N] at rest where Coulomb friction slides in the direction `way`.
+    fn pull(&mut self, stage: &Stage<f64>, q: f64, way: f64) -> f64 {
+        let z = self.z_stage.clone();
+        let mut scratch = z.clone();
+        self.model.force(stage, &z, (q, 0.0, way), &mut scratch)
+    }
+
+    fn states_of_stage(&mut self, s: usize, stage: &Stage<Dual64>, (q, v): (f64, f64)) {
         if self.z.is_empty() {
             return;
         }
         let base: Vec<f64> = self.base.z.iter().map(|z| z.re).collect();
-        self.model.contact.stage(&base, gh, v, &mut self.z_stage);
+        let (t, dt) = (stage.t, stage.dt);
+        let stage = Stage { t, dt, u: stage.u.re };
+        self.model.force(&stage, &base, (q, v, 0.0), &mut self.z_stage);
         for (i, z) in self.z_stage.iter().enumerate() {
-            self.z_dot[s][i] = (z - base[i]) / gh;
+            self.z_dot[s][i] = (z - base[i]) / dt;
         }
     }
 
@@ -327,8 +353,8 @@ impl<'a> Walker<'a> {
     fn error(&self, h: f64, [q_dot, v_dot]: [[f64; 3]; 2]) -> f64 {
         let weighed = |rates: [f64; 3]| h * (0..3).map(|s| ERROR[s] * rates[s]).sum::<f64>().abs();
         let mut worst = (weighed(q_dot) / self.tolerance.q).max(weighed(v_dot) / self.tolerance.v);
-        let size = self.tolerance.z * self.model.contact.scale();
         for i in 0..self.z.len() {
+            let size = self.tolerance.z * self.model.size(i);
             worst = worst.max(weighed(std::array::from_fn(|s| self.z_dot[s][i])) / size);
         }
         worst

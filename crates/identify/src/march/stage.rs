@@ -1,7 +1,7 @@
 //! One stage: the velocity for which force and momentum balance.
 
-use super::{Model, Real};
-use num_dual::{Dual64, DualStruct};
+use super::{Model, Real, plant::Stage};
+use num_dual::Dual64;
 
 /// Where a stage starts from: the states it would have if nothing happened in its own share of the step.
 #[derive(Debug, Clone)]
@@ -14,27 +14,17 @@ pub(super) struct Base<D> {
     pub(super) z: Vec<D>,
 }
 
-/// The stage's share of the step [s] and the input in it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Share<D> {
-    /// γh [s].
-    pub(super) dt: f64,
-    /// The input at the stage's time.
-    pub(super) u: D,
-}
-
-/// The momentum [N·s] that is left over at the velocity `v`: M(v − v_b) − γh (T − F); writes the contact's
-/// states. The jump of Coulomb friction is not in it.
+/// The momentum [N·s] that is left over at the velocity `v`: M(v − v_b) − γh (T − F); writes the states. Coulomb
+/// friction slides in the direction `way`, or is left out if that is 0.
 pub(super) fn excess<D: Real>(
     model: &Model<D>,
     base: &Base<D>,
-    share: Share<D>,
-    v: D,
+    stage: &Stage<D>,
+    (v, way): (D, f64),
     z: &mut [D],
 ) -> D {
-    let friction = model.contact.stage(&base.z, share.dt, v, z);
-    let force = model.drive(share.u, base.q + v * share.dt, v) - friction;
-    model.balance.mass * (v - base.v) - force * share.dt
+    let force = model.force(stage, &base.z, (base.q + v * stage.dt, v, way), z);
+    model.mass() * (v - base.v) - force * stage.dt
 }
 
 /// How the velocity of a stage is looked for.
@@ -53,29 +43,29 @@ pub(super) struct Seek {
 pub(super) fn velocity(
     model: &Model<Dual64>,
     base: &Base<Dual64>,
-    share: Share<Dual64>,
+    stage: &Stage<Dual64>,
     seek: Seek,
     z: &mut [Dual64],
 ) -> Option<(f64, f64)> {
-    let mut at = |v: f64, jump: f64| {
-        let g = excess(model, base, share, Dual64::from_re(v).derivative(), z);
-        (g.re + jump, g.eps)
+    let mut at = |v: f64, way: f64| {
+        let g = excess(model, base, stage, (Dual64::from_re(v).derivative(), way), z);
+        (g.re, g.eps)
     };
-    let Some(f_c) = model.contact.dry() else {
+    if !model.sticks() {
         return root(|v| at(v, 0.0), seek, None).map(|v| (v, v.signum()));
-    };
-    let most = share.dt * f_c.re();
-    if let Some(way) = seek.way {
-        return root(|v| at(v, way * most), seek, None).map(|v| (v, way));
     }
-    let free = at(0.0, 0.0).0;
-    if free.abs() <= most {
+    if let Some(way) = seek.way {
+        return root(|v| at(v, way), seek, None).map(|v| (v, way));
+    }
+    // The excess grows with v: where it is negative at rest although friction holds against it, the plant
+    // slides forth, and where it is positive, back.
+    let (forth, back) = (at(0.0, 1.0).0, at(0.0, -1.0).0);
+    if forth >= 0.0 && back <= 0.0 {
         return Some((0.0, 0.0));
     }
-    // The excess grows with v, so that it vanishes on the side on which it is negative at zero.
-    let side = -free.signum();
+    let side = if forth < 0.0 { 1.0 } else { -1.0 };
     let guess = if seek.guess * side > 0.0 { seek.guess } else { 0.0 };
-    root(|v| at(v, side * most), Seek { guess, ..seek }, Some(side)).map(|v| (v, side))
+    root(|v| at(v, side), Seek { guess, ..seek }, Some(side)).map(|v| (v, side))
 }
 
 /// The step of Newton's method after which there is no other, of the velocity.

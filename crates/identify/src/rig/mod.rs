@@ -21,8 +21,8 @@ pub use kinds::{KINDS, Kind, PlantKey, Quantity, Range};
 
 use std::collections::BTreeMap;
 
-/// The names of the effects that an `[[effect]]` table may name. There are none yet.
-pub const EFFECTS: &[&str] = &[];
+/// The names of the effects that an `[[effect]]` table may name.
+pub use crate::effects::NAMES as EFFECTS;
 
 /// A rig, as its file declares it, in SI units.
 #[derive(Debug, Clone, PartialEq)]

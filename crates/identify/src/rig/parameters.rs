@@ -1,6 +1,7 @@
 //! The parameters of a rig by their names.
 
 use super::{Kind, Range, Rig, RigError};
+use crate::effects::Kind as Effects;
 use duhem::{MODELS, Parameter, Parameters};
 
 /// Where a parameter is kept.
@@ -114,7 +115,10 @@ impl Rig {
                 kind.friction_unit(unit)
             }
             Some(Home::Viscous) => kind.friction_unit("N·s/m"),
-            Some(Home::Effect(..)) | None => "",
+            Some(Home::Effect(effect, key)) => {
+                Effects::named(effect).map_or("", |kind| kind.about().unit(key, self))
+            }
+            None => "",
         }
     }
 

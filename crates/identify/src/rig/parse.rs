@@ -42,9 +42,10 @@ impl Rig {
             free: Vec::new(),
             channels: read_channels(&channels, kind)?,
             controller: file.table("controller", "[controller]")?.map(controller).transpose()?,
-            effects: effects(&file)?,
+            effects: Vec::new(),
         };
         rig.plant = plant_values(&plant, kind, &rig.channels)?;
+        rig.effects = effects(&file, &rig)?;
         if rig.controller.is_some() && !rig.channels.contains_key("reference") {
             let expected = "the column of the reference that the controller followed";
             return Err(channels.missing("reference", expected));
@@ -329,7 +330,7 @@ fn controller(table: Table) -> Result<Controller, RigError> {
     })
 }
 
-fn effects(file: &Table) -> Result<Vec<Effect>, RigError> {
+fn effects(file: &Table, rig: &Rig) -> Result<Vec<Effect>, RigError> {
     let Some(item) = file.find("effect") else { return Ok(Vec::new()) };
     let expected = "tables [[effect]]";
     let list = item.value.as_array().ok_or_else(|| item.invalid(expected))?;
@@ -340,12 +341,28 @@ fn effects(file: &Table) -> Result<Vec<Effect>, RigError> {
         let table = Table { text: file.text, name: "[[effect]]", line, entries: table };
         let name = table.get("name", "the name of an effect")?;
         let text = name.text("the name of an effect")?;
-        if !EFFECTS.contains(&text) {
+        // Maps and probes have names too, but in no rig file.
+        let known = Some(text).filter(|text| EFFECTS.contains(text));
+        let Some(kind) = known.and_then(crate::effects::Kind::named) else {
             return Err(RigError::unknown(Some(name.line), "effect", text, EFFECTS));
+        };
+        if effects.iter().any(|effect: &Effect| effect.name == text) {
+            return Err(name.invalid("each effect once"));
         }
+        let about = kind.about();
+        let names = about.keys.iter().map(|key| key.name);
+        table.only(&["name"].into_iter().chain(names).collect::<Vec<&str>>())?;
         let mut values = BTreeMap::new();
-        for item in table.items().filter(|item| item.key != "name") {
-            values.insert(item.key.to_owned(), item.number("a number")?);
+        for key in about.keys {
+            let unit = about.unit(key.name, rig);
+            let expected = parameters::expected(key.bounds(), key.words(), unit);
+            let item = table.get(key.name, &expected)?;
+            let value = item.number(&expected)?;
+            let (low, high) = key.bounds();
+            if !(low..=high).contains(&value) {
+                return Err(item.invalid(&expected));
+            }
+            values.insert(key.name.to_owned(), value);
         }
         effects.push(Effect { name: text.to_owned(), values });
     }

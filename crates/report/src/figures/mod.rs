@@ -3,11 +3,14 @@
 mod collapse;
 mod convergence;
 mod curves;
+mod ladder;
 mod orders;
+mod ranking;
 mod tolerance;
 mod work_precision;
 
 use crate::ReportError;
+use crate::fit_drawing::FitLadder;
 use crate::plot::{Chart, Fault, Panel, align};
 use record::{FigureRow, Summary};
 
@@ -46,12 +49,27 @@ pub const FIGURES: &[FigureKind] = &[
         of_solvers: true,
         draw: curves::draw,
     },
+    FigureKind {
+        name: "ladder",
+        reads: "Root mean square of the residuals of all channels on blocks that were not fitted, in units of what noise \
+                alone leaves; the line stands at the floor.",
+        of_solvers: false,
+        draw: ladder::draw,
+    },
     FigureKind { name: "loop", reads: "", of_solvers: false, draw: curves::draw },
     FigureKind {
         name: "orders",
         reads: "A mark left of the tick falls short of the declared order; the longer the bar, the more of it the corners cost.",
         of_solvers: true,
         draw: orders::draw,
+    },
+    FigureKind {
+        name: "ranking",
+        reads: "What each candidate, refitted in full, takes away of the excess over the floor on blocks that were not \
+                fitted, with its 95 % interval over the blocks and Student's t; what makes it worse by more than a quarter stands \
+                at the edge. Bold is what was named, or cannot be told from it.",
+        of_solvers: false,
+        draw: ranking::draw,
     },
     FigureKind {
         name: "tolerance",
@@ -149,6 +167,30 @@ fn of_charts(
     let x = same(|chart| &chart.x.label, "x");
     let y = same(|chart| &chart.y.label, "y");
     Ok(Drawing { panels, columns, data: charts.iter().flat_map(values).collect(), x, y })
+}
+
+/// A figure of ladders below one another, with the values of their rungs.
+fn of_ladders(ladders: &[FitLadder]) -> Result<Drawing, Fault> {
+    let panels = FitLadder::stack(ladders)?;
+    let datum = |ladder: &FitLadder| {
+        let title = ladder.title.clone();
+        let rungs = ladder.rungs.iter().map(move |rung| Datum {
+            panel: title.clone(),
+            series: rung.name.clone(),
+            x: Some(rung.value).filter(|value| value.is_finite()),
+            y: None,
+            note: String::new(),
+        });
+        rungs.collect::<Vec<_>>()
+    };
+    let x = ladders.first().map_or(String::new(), |ladder| ladder.axis.clone());
+    Ok(Drawing {
+        panels,
+        columns: 1,
+        data: ladders.iter().flat_map(datum).collect(),
+        x,
+        y: String::new(),
+    })
 }
 
 /// The most that the panels of one figure may take [bytes]; with its style and title a file stays below 150 kB.

@@ -2,14 +2,15 @@
 
 use super::paragraphs;
 use crate::chapter::{Chapter, Figure, heading, split_first, told};
+use crate::discoveries::{self, OVERVIEW_READ};
 use crate::escape::html;
 use crate::fits;
-use crate::grid;
+use crate::grid::{self, Grid};
 use crate::number;
 use crate::plot::inline;
 use crate::prose;
 use crate::select::distinct;
-use record::{FitRow, StudyRow};
+use record::{DiscoveryRow, FitRow, StudyRow};
 
 /// Writes the experiment.
 pub(super) fn write(out: &mut String, chapter: &Chapter) {
@@ -28,8 +29,14 @@ pub(super) fn write(out: &mut String, chapter: &Chapter) {
     for fit in &summary.fits {
         write_fit(out, chapter, fit);
     }
+    if let Some(table) = discoveries::overview(summary) {
+        put!(out, "<p>{}</p>\n{}", html(OVERVIEW_READ), table.html("All records"));
+    }
     for figure in chapter.figures_of("") {
         write_figure(out, chapter, figure);
+    }
+    for search in &summary.discoveries {
+        write_search(out, chapter, search);
     }
     write_folded(out, chapter);
     if !more.is_empty() {
@@ -109,6 +116,27 @@ fn write_fit(out: &mut String, chapter: &Chapter, fit: &FitRow) {
     out.push_str("</details>\n");
     for figure in chapter.figures_of(&fit.fit) {
         write_figure(out, chapter, figure);
+    }
+}
+
+/// A search for what a model lacks: its text, its answer, its tables, its figures; the parameters are folded.
+fn write_search(out: &mut String, chapter: &Chapter, search: &DiscoveryRow) {
+    let heading = discoveries::heading(search);
+    put!(out, "<h3>{}</h3>\n{}", prose::html(heading), paragraphs(&search.text));
+    write_list(out, discoveries::told(chapter.summary, search));
+    let mut tables = discoveries::tables(chapter.summary, &search.discovery);
+    let last = tables.pop();
+    let table = |(title, reads, grid): &(&str, &str, Grid)| {
+        format!("{}</p>\n{}", html(reads), grid.html(&format!("{title} of {heading}")))
+    };
+    for shown in &tables {
+        put!(out, "<p><b>{}.</b> {}", shown.0, table(shown));
+    }
+    for figure in chapter.figures_of(&search.discovery) {
+        write_figure(out, chapter, figure);
+    }
+    if let Some(last) = &last {
+        put!(out, "<details><summary>{}</summary>\n<p>{}</details>\n", last.0, table(last));
     }
 }
 

@@ -139,6 +139,8 @@ pub(crate) enum Ink {
     Label(Look),
     /// A cell of a map, 0 for the best to 3.
     Shade(u8),
+    /// A cell of a map of what has a sign: 0 for the most negative to 6, 3 for none.
+    Signed(u8),
 }
 
 impl Ink {
@@ -161,6 +163,7 @@ impl Ink {
             Self::Letter(look) => (14, look.colour, 0),
             Self::Label(look) => (12, look.colour, 0),
             Self::Shade(shade) => (15 + shade.min(3), 0, 0),
+            Self::Signed(shade) => (19 + shade.min(6), 0, 0),
         };
         RGBColor(role, colour, dash)
     }
@@ -168,9 +171,9 @@ impl Ink {
 
 /// The classes a colour of [`Ink::colour`] stands for.
 pub(crate) fn classes((role, colour, dash): (u8, u8, u8)) -> String {
-    const ROLES: [&str; 19] = [
+    const ROLES: [&str; 26] = [
         "mk", "bn", "gr", "ax", "gu", "ld", "tx", "mu", "ti", "l", "f", "o", "t", "gh", "t lt",
-        "h0", "h1", "h2", "h3",
+        "h0", "h1", "h2", "h3", "v0", "v1", "v2", "v3", "v4", "v5", "v6",
     ];
     let role = ROLES.get(usize::from(role)).copied().unwrap_or("tx");
     match (colour, dash) {

@@ -4,10 +4,16 @@
 //! turns one bit into another step. So results are compared tightly, work loosely, names, statuses and
 //! verdicts exactly, and of rows that are irreproducible by nature only the status, if that.
 
+mod tolerance;
+
 use record::Summary;
 use serde::Serialize;
-use serde_json::{Map, Value};
+use serde_json::Value;
 use std::fmt;
+use tolerance::{
+    Close, DRAWN, DRAWN_FITTED, Exact, Ignored, Row, TIGHT, TINY, Tolerance, Within, case, fit,
+    misfit, order, parameter, searched, study, value,
+};
 
 /// One field that moved.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,36 +36,6 @@ impl fmt::Display for Drift {
         write!(f, "{table}, {row}: {field}: committed {committed}, found {found}")
     }
 }
-
-/// How a field is compared.
-enum Tolerance {
-    Exact,
-    /// Equal if |a − b| ≤ relative · max(|a|, |b|) + absolute.
-    Close {
-        relative: f64,
-        absolute: f64,
-    },
-    /// Equal if neither is more than this many times the other, or both are tiny.
-    Within(f64),
-    Ignored,
-}
-
-use Tolerance::{Close, Exact, Ignored, Within};
-
-/// Errors, orders and other results of a reproducible case.
-const RESULT: Tolerance = Close { relative: 2e-3, absolute: 2e-12 };
-/// Step and evaluation counts: a last bit may cost or save a step or two.
-const WORK: Tolerance = Close { relative: 0.05, absolute: 20.0 };
-/// Closed forms.
-const TIGHT: Tolerance = Close { relative: 1e-9, absolute: 1e-12 };
-/// What follows from a minimum that is found to a share of its standard errors.
-const FITTED: Tolerance = Close { relative: 0.02, absolute: 1e-9 };
-/// What is drawn of a simulation with fitted parameters.
-const DRAWN_FITTED: Tolerance = Close { relative: 1e-3, absolute: 1e-3 };
-/// What is drawn of a plant that was solved for: finer than a line is wide.
-const DRAWN: Tolerance = Close { relative: 1e-5, absolute: 1e-5 };
-/// Below this, errors and bounds of errors are rounding.
-const TINY: f64 = 1e-12;
 
 /// Every field that moved between two summaries of the same experiment.
 pub fn drift(committed: &Summary, found: &Summary) -> Vec<Drift> {
@@ -93,41 +69,27 @@ pub fn drift(committed: &Summary, found: &Summary) -> Vec<Drift> {
     compare("parameters.csv", (&committed.parameters, &found.parameters), parameter, &mut moved);
     compare("models.csv", (&committed.models, &found.models), misfit, &mut moved);
     compare("misfits.csv", (&committed.misfits, &found.misfits), misfit, &mut moved);
+    searches(committed, found, &mut moved);
     moved
 }
 
-/// The figures that show fits.
+/// What the searches for a missing effect found.
+fn searches(committed: &Summary, found: &Summary, moved: &mut Vec<Drift>) {
+    let both = (&committed.discoveries[..], &found.discoveries[..]);
+    compare("discoveries.csv", both, searched, moved);
+    compare("effects.csv", (&committed.effects, &found.effects), searched, moved);
+    compare("gaps.csv", (&committed.gaps, &found.gaps), searched, moved);
+    compare("ranking.csv", (&committed.ranking, &found.ranking), searched, moved);
+    compare("shares.csv", (&committed.shares, &found.shares), searched, moved);
+}
+
+/// The figures that show fits and searches.
 fn fitted(summary: &Summary) -> Vec<&str> {
-    let of_fit = |f: &&record::FigureRow| summary.fits.iter().any(|fit| fit.fit == f.study);
+    let of_fit = |f: &&record::FigureRow| {
+        summary.fits.iter().any(|fit| fit.fit == f.study)
+            || summary.discoveries.iter().any(|search| search.discovery == f.study)
+    };
     summary.figures.iter().filter(of_fit).map(|f| f.figure.as_str()).collect()
-}
-
-fn fit(field: &str, _: &Row) -> Tolerance {
-    match field {
-        "simulations" => WORK,
-        "step_error" => Within(10.0),
-        "variance" | "neighbours" => FITTED,
-        _ => Exact,
-    }
-}
-
-/// A minimum is found to a share of its standard errors, no better, and so are the ends of an interval.
-fn parameter(field: &str, row: &Row) -> Tolerance {
-    let error = row.get("standard_error").and_then(Value::as_f64).unwrap_or(0.0);
-    match field {
-        "found" | "low" | "high" => Close { relative: 0.0, absolute: 0.05 * error },
-        "standard_error" => FITTED,
-        "truth" | "given" => TIGHT,
-        _ => Exact,
-    }
-}
-
-fn misfit(field: &str, _: &Row) -> Tolerance {
-    match field {
-        "trained" | "held_out" | "before" | "after" => FITTED,
-        "noise" => TIGHT,
-        _ => Exact,
-    }
 }
 
 /// The figures that show plants.
@@ -136,67 +98,6 @@ fn solved(summary: &Summary) -> Vec<&str> {
     let plants: Vec<&str> = plants.map(|s| s.study.as_str()).collect();
     let shown = summary.figures.iter().filter(|f| plants.contains(&f.study.as_str()));
     shown.map(|f| f.figure.as_str()).collect()
-}
-
-type Row = Map<String, Value>;
-
-fn irreproducible(row: &Row) -> bool {
-    row.get("irreproducible").and_then(Value::as_str).is_some_and(|why| !why.is_empty())
-}
-
-fn study(field: &str, _: &Row) -> Tolerance {
-    // A bound of rounding errors is itself made of last bits.
-    if field == "reference_error" { Within(2.0) } else { TIGHT }
-}
-
-fn case(field: &str, row: &Row) -> Tolerance {
-    let error = row.get("error_max").and_then(Value::as_f64).unwrap_or(0.0);
-    match field {
-        "status" | "detail" | "reached" | "error_final" | "error_max" | "error_l2"
-        | "error_away" | "digits" | "order" | "evaluations" | "jacobians" | "accepted"
-        | "rejected"
-            if row.get("any_status") == Some(&Value::Bool(true)) =>
-        {
-            Ignored
-        }
-        // What chatters or meets a kink untold still has an error and a cost of some size; the error at one
-        // moment of a motion that rings has none.
-        "error_max" | "error_l2" | "error_away" if irreproducible(row) => Within(1e3),
-        "evaluations" | "jacobians" | "accepted" | "rejected" if irreproducible(row) => {
-            Within(10.0)
-        }
-        "reached" if irreproducible(row) => Close { relative: 0.0, absolute: 0.1 },
-        "error_final" | "digits" | "order" | "detail" if irreproducible(row) => Ignored,
-        "error_final" | "error_max" | "error_l2" | "error_away" => RESULT,
-        // They are logarithms of errors, and of nothing near round-off.
-        "digits" | "order" if error < 1e-9 => Ignored,
-        "digits" | "order" => Close { relative: 0.0, absolute: 0.05 },
-        "reached" => Close { relative: 1e-3, absolute: 0.0 },
-        "evaluations" | "jacobians" | "accepted" | "rejected" => WORK,
-        _ => Exact,
-    }
-}
-
-fn order(field: &str, row: &Row) -> Tolerance {
-    match field {
-        // How many failed follows from the cases' statuses.
-        "order" | "points" | "failed" if irreproducible(row) => Ignored,
-        "order" => Close { relative: 0.02, absolute: 0.02 },
-        _ => Exact,
-    }
-}
-
-fn value(field: &str, row: &Row) -> Tolerance {
-    match field {
-        // A bound of an error may breathe, but not lose its size.
-        "error" => Within(10.0),
-        // What was solved for, and not by a closed form, is as good as its stated error.
-        "value" | "ours" => {
-            let error = row.get("error").and_then(Value::as_f64).unwrap_or(0.0);
-            Close { relative: 1e-9, absolute: 4.0 * error + 1e-12 }
-        }
-        _ => TIGHT,
-    }
 }
 
 fn compare<T: Serialize>(
@@ -245,6 +146,9 @@ fn name(row: &Row) -> String {
         "id",
         "study",
         "fit",
+        "discovery",
+        "effect",
+        "part",
         "parameter",
         "model",
         "channel",

@@ -1,7 +1,10 @@
 //! The commands and their flags.
 
-use clap::{Args, Parser, Subcommand, builder::PossibleValuesParser};
-use simulation::anchors::PROBLEMS;
+mod bench;
+
+pub(crate) use bench::*;
+
+use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
 /// Duhem: the paper's experiments, reproduced.
@@ -54,6 +57,10 @@ pub(crate) enum Command {
     Fit(FitArgs),
     /// Run a rig's model on a record's inputs, beside the record.
     Simulate(SimulateArgs),
+    /// Find where a rig's model and a record of its drive disagree, and name what the model lacks.
+    ///
+    /// Ends with 0 whatever the verdict is.
+    Discover(DiscoverArgs),
     /// Time the methods on the anchors, or run what else takes long.
     Bench(BenchArgs),
     /// Compare two saved runs of the benchmark.
@@ -159,76 +166,22 @@ pub(crate) struct SimulateArgs {
 }
 
 #[derive(Debug, Args)]
-#[command(args_conflicts_with_subcommands = true, arg_required_else_help = true)]
-pub(crate) struct BenchArgs {
-    /// What; the anchors if it is not said.
-    #[command(subcommand)]
-    pub(crate) what: Option<Bench>,
-    #[command(flatten)]
-    pub(crate) anchors: AnchorsArgs,
-}
-
-#[derive(Debug, Subcommand)]
-pub(crate) enum Bench {
-    /// Time our methods and the libraries on P1 to P6 at equal delivered error.
-    Anchors(AnchorsArgs),
-    /// Time many rigs at once, on one thread and on several.
-    Ensemble(EnsembleArgs),
-    /// Try the properties of plants with friction on cases drawn at random.
-    Properties(PropertiesArgs),
-    /// Fit records of known truth, and count how often the intervals hold it.
-    Coverage(CoverageArgs),
-    /// Time the fit of LuGre's six parameters to the record of P6.
-    Fit(FitBenchArgs),
-}
-
-#[derive(Debug, Args)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own on the command line")]
-pub(crate) struct AnchorsArgs {
-    /// The problems; all if none is named.
-    #[arg(value_name = "PROBLEM", value_parser = PossibleValuesParser::new(PROBLEMS))]
-    pub(crate) problems: Vec<String>,
-    /// The rows as JSON, one a line.
-    #[arg(long)]
-    pub(crate) json: bool,
-    /// A folder of references made elsewhere, as P5_0.txt: a line `t quantity …` for each time.
+pub(crate) struct DiscoverArgs {
+    /// The record: CSV, Parquet or MATLAB 5.
+    pub(crate) record: PathBuf,
+    /// The rig file: plant, friction, what is free, which column is what.
+    #[arg(long, value_name = "RIG")]
+    pub(crate) rig: PathBuf,
+    /// A record that is not used otherwise, on which the model with the effect is run.
+    #[arg(long, value_name = "RECORD")]
+    pub(crate) holdout: Option<PathBuf>,
+    /// Where the model with the effect, the answer and its page go: model.toml, answer.json, page.html.
     #[arg(long, value_name = "DIR")]
-    pub(crate) refs: Option<PathBuf>,
-    /// Build for the processor at hand; so it is if nothing is said.
-    #[arg(long, conflicts_with = "portable")]
-    pub(crate) native: bool,
-    /// Build for any processor of the kind.
-    #[arg(long)]
-    pub(crate) portable: bool,
-    /// Every second tolerance, less work allowed, fewer repeats: half a minute and the build.
-    #[arg(long)]
-    pub(crate) quick: bool,
-    /// Keep the run under this name, for `compare`.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) save: Option<String>,
-    /// Build with a changed library, as diffsol=PATH.
-    #[arg(long, value_name = "LIBRARY=PATH")]
-    pub(crate) patch: Option<String>,
-    /// Run nothing and show a run that was kept: its name or its file.
-    #[arg(long, value_name = "RUN", conflicts_with_all = ["problems", "refs", "native", "portable", "quick", "save", "patch"])]
-    pub(crate) saved: Option<String>,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct EnsembleArgs {
-    /// A table of friction parameters, f_c,f_s,v_s,sigma_0,sigma_1,sigma_2; drawn if not given.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) parameters: Option<PathBuf>,
-    /// How many runs; of a table, its first ones.
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    pub(crate) runs: u32,
-    /// Threads, beside one.
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: u16,
-    /// Build for any processor of the kind.
-    #[arg(long)]
-    pub(crate) portable: bool,
-    /// The rows as JSON, one a line.
+    pub(crate) out: Option<PathBuf>,
+    /// Seed of the perturbations that make the floor.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(..1 << 62))]
+    pub(crate) seed: u64,
+    /// As JSON.
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -275,62 +228,11 @@ pub(crate) struct RecordArgs {
     pub(crate) json: bool,
 }
 
-#[derive(Debug, Args)]
-pub(crate) struct CoverageArgs {
-    /// The friction models; all if none is named.
-    #[arg(long, value_name = "MODEL", value_delimiter = ',')]
-    pub(crate) models: Vec<String>,
-    /// How many records of each model.
-    #[arg(long, value_name = "N", default_value_t = 400, value_parser = records)]
-    pub(crate) records: usize,
-    /// The first seed; each record has the next.
-    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(..1 << 62))]
-    pub(crate) seed: u64,
-    /// Threads; as many as there are processors if not given.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-    /// Keep the table as data/benchmarks/coverage.csv.
-    #[arg(long)]
-    pub(crate) save: bool,
-    /// As JSON.
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct FitBenchArgs {
-    /// How many times each fit is repeated.
-    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1000))]
-    pub(crate) repeats: u32,
-    /// Build for any processor of the kind.
-    #[arg(long)]
-    pub(crate) portable: bool,
-    /// The rows as JSON, one a line.
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
 fn records(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
         Ok(n) if (1..=1_000_000).contains(&n) => Ok(n),
         _ => Err("expected a number of records, from 1 to 1000000".to_owned()),
     }
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct PropertiesArgs {
-    /// How many cases of each property.
-    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = cases)]
-    pub(crate) cases: usize,
-    /// The first seed; each case has the next.
-    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(..1 << 62))]
-    pub(crate) seed: u64,
-    /// Threads; as many as there are processors if not given.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(crate) threads: Option<u16>,
-    /// As JSON.
-    #[arg(long)]
-    pub(crate) json: bool,
 }
 
 fn cases(text: &str) -> Result<usize, String> {

@@ -1,0 +1,65 @@
+//! What is given and not free, but may be a little off.
+
+use super::{Board, Fitted};
+use identify::Rig;
+
+/// How much a nominal value may be off that is not free, in its logarithm.
+pub(super) const LOOSE: f64 = 0.02;
+
+/// So many times as far it is no little.
+const STRAYED: f64 = 5.0;
+
+/// The constant force on the side of the friction.
+pub(super) const OFFSET: &str = "offset";
+
+/// The torque of a drum's two prestressed springs, if both pulled the same way [N·m].
+pub(super) fn prestress(rig: &Rig) -> f64 {
+    if rig.kind != "drum" || rig.free.iter().any(|f| f == "f_10") {
+        return 0.0;
+    }
+    let value = |key: &str| rig.value(key).unwrap_or(0.0);
+    (value("f_10").hypot(value("f_20"))) * value("radius")
+}
+
+/// The parameters of a plant that are not free but may be a little off. One scale of forces stays as it is.
+pub(crate) fn loose(rig: &Rig) -> Vec<(String, f64)> {
+    let keys: &[&str] = match rig.kind {
+        // Without load cells the springs' torque hangs on r²k alone.
+        "drum" if rig.channels.contains_key("force_1") => &["inertia", "radius", "k_1", "k_2"],
+        "drum" => &["inertia", "k_1", "k_2"],
+        "mass-spring" => &["mass", "stiffness"],
+        "axis" => &["inertia"],
+        "pendulum" => &["inertia", "mass"],
+        _ => &[],
+    };
+    let fixed = keys.iter().filter(|key| !rig.free.iter().any(|f| f == *key));
+    let some =
+        fixed.filter_map(|key| Some(((*key).to_owned(), rig.value(key).filter(|v| *v > 0.0)?)));
+    let mut all: Vec<(String, f64)> = some.collect();
+    // Springs that are drawn a little otherwise than said push to one side.
+    if prestress(rig) > 0.0 && !rig.free.iter().any(|f| f == OFFSET) {
+        all.push((OFFSET.to_owned(), rig.value(OFFSET).unwrap_or(0.0)));
+    }
+    all
+}
+
+/// `rig` with what is `loose` free as well.
+pub(crate) fn loosened(rig: &Rig, loose: &[(String, f64)]) -> Rig {
+    let more = loose.iter().map(|(name, _)| name.clone());
+    Rig { free: rig.free.iter().cloned().chain(more).collect(), ..rig.clone() }
+}
+
+impl Board<'_> {
+    /// The parameters that were held near their given values and went far from them all the same.
+    pub(crate) fn strayed(&self, fitted: &Fitted) -> Vec<String> {
+        let away = |(name, given): &&(String, f64)| {
+            let value = fitted.rig.value(name).unwrap_or(*given);
+            if name == OFFSET {
+                (value - given).abs() > STRAYED * LOOSE * prestress(&fitted.rig)
+            } else {
+                value <= 0.0 || (value / given).ln().abs() > STRAYED * LOOSE
+            }
+        };
+        self.loose.iter().filter(away).map(|(name, _)| name.clone()).collect()
+    }
+}

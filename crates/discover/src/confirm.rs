@@ -1,0 +1,97 @@
+//! The last word: two models run on a record, without any help from it.
+
+use crate::Gap;
+use identify::{
+    Rig,
+    doctor::noise,
+    fit::{Data, FitError, Simulated, simulate},
+    rig,
+};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+/// How many times the recorded input is perturbed by its own noise.
+const TIMES: u64 = 3;
+
+/// The first sample by which a command is judged: the samples before it are the drive's own coming to rest.
+const FROM: usize = 49;
+
+/// Runs `nominal` and `model` on `data`: in closed loop where the rig declares its controller, else in one run from the
+/// first sample to the last.
+///
+/// Before is the misfit of `nominal`, not a number where it has no motion; after that of `model`; the floor is what
+/// the noise of the sensors and of the recorded input leaves. Nothing is refitted: refit is not a number.
+///
+/// # Errors
+/// A record too short or still, and a `model` that has no motion on it.
+pub fn confirm(nominal: &Rig, model: &Rig, data: &Data) -> Result<Vec<Gap>, FitError> {
+    let before = match simulate(nominal, data, None) {
+        Err(FitError::NoMotion) => None,
+        other => Some(other?),
+    };
+    let after = simulate(model, data, None)?;
+    let spread = spread(model, data, &after);
+    let all = after.gap.iter().zip(&spread).map(|(gap, spread)| {
+        let there = before.as_ref().and_then(|b| b.gap.iter().find(|g| g.channel == gap.channel));
+        Gap {
+            channel: gap.channel.clone(),
+            unit: unit(model, &gap.channel),
+            before: there.map_or(f64::NAN, |g| g.after),
+            refit: f64::NAN,
+            after: gap.after,
+            floor: gap.noise.hypot(*spread),
+        }
+    });
+    Ok(all.collect())
+}
+
+/// How far the noise of the recorded input moves each channel [its unit], root mean square. A controller's command is
+/// simulated, and an imposed motion is what it is: there it moves none.
+fn spread(model: &Rig, data: &Data, plain: &Simulated) -> Vec<f64> {
+    let mut squares = vec![(0.0, 0.0); plain.traces.len()];
+    let noise = noise(&data.input);
+    let alone = data.force.is_some() || plain.traces.iter().any(|t| t.channel == "input");
+    for time in 0..if alone || noise <= 0.0 { 0 } else { TIMES } {
+        let mut random = ChaCha8Rng::seed_from_u64(time);
+        let mut other = data.clone();
+        for u in &mut other.input {
+            let drawn: f64 = StandardNormal.sample(&mut random);
+            *u += noise * drawn;
+        }
+        let Ok(other) = simulate(model, &other, None) else { continue };
+        for ((sum, count), (a, b)) in squares.iter_mut().zip(plain.traces.iter().zip(&other.traces))
+        {
+            *sum += a.after.iter().zip(&b.after).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+            *count += a.after.len() as f64;
+        }
+    }
+    squares.into_iter().map(|(sum, count)| (sum / f64::max(count, 1.0)).sqrt()).collect()
+}
+
+/// 100 ‖u − û‖/‖u‖ over the samples from the 50th on, where û is the command that the rig's controller makes with the
+/// model in its loop; none where the rig declares no controller.
+///
+/// # Errors
+/// A record too short or still, and a model that has no motion on it.
+pub fn command_error(rig: &Rig, data: &Data) -> Result<Option<f64>, FitError> {
+    let run = simulate(rig, data, None)?;
+    let Some(command) = run.traces.iter().find(|t| t.channel == "input") else { return Ok(None) };
+    let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
+    let pairs = command.measured.iter().zip(&command.after).skip(FROM);
+    let off = norm(&mut pairs.map(|(u, made)| u - made));
+    Ok(Some(100.0 * off / norm(&mut command.measured.iter().skip(FROM).copied())))
+}
+
+/// The unit of a channel.
+fn unit(rig: &Rig, channel: &str) -> &'static str {
+    let driven = ["voltage", "current"].iter().find(|name| rig.channels.contains_key(**name));
+    match (channel, rig::Kind::of(rig.kind), driven) {
+        ("velocity", Some(kind), _) => kind.velocity_unit,
+        ("angle" | "position" | "displacement", Some(kind), _) => kind.displacement_unit,
+        ("input", _, Some(&"voltage")) => "V",
+        ("input", _, Some(_)) => "A",
+        ("input", Some(kind), None) if kind.turns() => "N·m",
+        _ => "N",
+    }
+}

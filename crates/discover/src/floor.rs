@@ -1,0 +1,179 @@
+//! What noise alone leaves: that of the sensors, and that of the recorded input on its way through the model.
+
+use crate::board::{Board, Fitted};
+use identify::{
+    Rig,
+    fit::{Data, FitError, models, problem::Piece},
+    march::Feedback,
+};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
+
+/// How many times the input is perturbed by its own noise.
+const TIMES: u64 = 4;
+
+/// The steps with which its way is followed, of the spans [1].
+const ENOUGH: f64 = 1e-5;
+
+/// How many samples to either side tell of one sample's spread.
+const AROUND: usize = 5;
+
+/// By how much every sample spreads because the input is noisy: displacement (or force) and velocity, each in its
+/// unit. Break-aways and turns are noisier than the rest, so that this is local in time.
+pub(crate) fn spread(
+    board: &Board<'_>,
+    fitted: &Fitted,
+    seed: u64,
+) -> Result<Vec<[f64; 2]>, FitError> {
+    let noise = noise_of_input(board.data, &fitted.rig);
+    if noise <= 0.0 {
+        return Ok(Vec::new());
+    }
+    // What noise moves shows with long steps, too, if both motions have them.
+    let board =
+        &Board { tolerance: board.tolerance.max(ENOUGH), spread: Vec::new(), ..board.clone() };
+    let rig = fitted.held();
+    let problem = board.problem(&rig, |_| true)?;
+    let here = models::settled(&problem, &[], Some(&fitted.pieces), 1);
+    let draws: Result<Vec<Vec<[f64; 2]>>, FitError> = (0..TIMES)
+        .into_par_iter()
+        .map(|time| one(board, (&rig, &here), (noise, seed.wrapping_add(time))))
+        .collect();
+    let n = board.data.time.len();
+    let mut sum = vec![[0.0; 2]; n + 1];
+    for draw in draws? {
+        for (sum, d) in sum[1..].iter_mut().zip(&draw) {
+            *sum = [sum[0] + d[0] * d[0], sum[1] + d[1] * d[1]];
+        }
+    }
+    for i in 0..n {
+        let before = sum[i];
+        sum[i + 1] = [sum[i + 1][0] + before[0], sum[i + 1][1] + before[1]];
+    }
+    let local = |i: usize| {
+        let (low, high) = (i.saturating_sub(AROUND), (i + AROUND + 1).min(n));
+        let count = (high - low) as f64 * TIMES as f64;
+        [0, 1].map(|c| ((sum[high][c] - sum[low][c]).max(0.0) / count).sqrt())
+    };
+    Ok((0..n).map(local).collect())
+}
+
+/// Standard deviation of the noise of the recorded input. A controller's command jumps with every step of its encoder,
+/// which is no noise: there it is what the record differs by from the command that its own positions ask for.
+fn noise_of_input(data: &Data, rig: &Rig) -> f64 {
+    let least = identify::doctor::noise(&data.input);
+    let (Some(c), Some(seen)) = (&rig.controller, &data.displacement) else { return least };
+    if data.reference.is_empty() {
+        return 0.0;
+    }
+    let law = Feedback {
+        kp: c.kp,
+        kv: c.kv,
+        limit: c.limit,
+        sample_time: c.sample_time,
+        reference: &data.reference,
+        added: &data.added,
+    };
+    let off = |i: usize| data.input[i] - law.command(i, [seen.values[i], seen.values[i - 2]]);
+    let mut off: Vec<f64> = (2..data.input.len()).map(|i| off(i).abs()).collect();
+    let middle = off.len() / 2;
+    let middle = *off.select_nth_unstable_by(middle, f64::total_cmp).1;
+    // The median size of a normal variable is 0.6745 of its standard deviation.
+    (middle / 0.674_489_750_196_082).min(least)
+}
+
+/// By what one draw of the input's noise moves every sample.
+fn one(
+    board: &Board<'_>,
+    (rig, undisturbed): (&Rig, &[Piece]),
+    (noise, seed): (f64, u64),
+) -> Result<Vec<[f64; 2]>, FitError> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut data: Data = board.data.clone();
+    for u in &mut data.input {
+        let drawn: f64 = StandardNormal.sample(&mut random);
+        *u += noise * drawn;
+    }
+    let other = Board { data: &data, ..board.clone() };
+    let problem = other.problem(rig, |_| true)?;
+    let pieces = models::settled(&problem, &[], Some(undisturbed), 1);
+    let mut moved = vec![[0.0; 2]; data.time.len()];
+    for ((window, there), here) in problem.windows.iter().zip(&pieces).zip(undisturbed) {
+        for i in 0..window.len() {
+            let off = |a: &[f64], b: &[f64]| match (a.get(i), b.get(i)) {
+                (Some(a), Some(b)) => a - b,
+                _ => 0.0,
+            };
+            moved[window.first + i] =
+                [off(&there.motion.q, &here.motion.q), off(&there.motion.v, &here.motion.v)];
+        }
+    }
+    Ok(moved)
+}
+
+/// How well the time of a sample is known, in sampling times.
+const TIMING: f64 = 0.1;
+
+/// The spread with that of a force that changes from sample to sample: one at a turn is worth what its time is.
+pub(crate) fn timed(data: &Data, spread: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let Some(force) = &data.force else { return spread };
+    let f = &force.values;
+    // At a corner there are two velocities.
+    let corners = identify::fit::corners(&data.input);
+    let known = |i: usize| if corners[i] { 2.0 } else { TIMING };
+    let of =
+        |i: usize| known(i) * 0.5 * (f[(i + 1).min(f.len() - 1)] - f[i.saturating_sub(1)]).abs();
+    let own = |i: usize| spread.get(i).copied().unwrap_or([0.0; 2]);
+    (0..f.len()).map(|i| [own(i)[0].hypot(of(i)), own(i)[1]]).collect()
+}
+
+/// Differences beyond so many standard deviations are no noise.
+const OUTLYING: f64 = 4.0;
+
+/// Of what the middle difference or the step of an encoder says at least so much shows.
+const SHOWN: f64 = 0.7;
+
+/// Standard deviation of the white noise on a smooth signal, from its third and fifth differences, by their root
+/// mean square where the middle one would see only the steps of an encoder; `least` is that of the middle one.
+pub(crate) fn noise(values: &[f64], least: f64) -> f64 {
+    let mut differences = values.to_vec();
+    let mut found = f64::INFINITY;
+    for order in 1..=5 {
+        differences = differences.windows(2).map(|w| w[1] - w[0]).collect();
+        // The sum of the squares of a difference's coefficients.
+        let sum: f64 = match order {
+            3 => 20.0,
+            5 => 252.0,
+            _ => continue,
+        };
+        let most = OUTLYING * least * sum.sqrt();
+        let near = differences.iter().filter(|d| d.abs() <= most);
+        let (count, squares) = near.fold((0.0, 0.0), |(n, s), d| (n + 1.0, s + d * d));
+        if count > 0.0 {
+            found = found.min((squares / count / sum).sqrt());
+        }
+    }
+    // A signal that changes by less than a step from sample to sample shows no noise at all.
+    if found.is_finite() && found > SHOWN * least { found } else { least }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::noise;
+
+    #[test]
+    fn the_noise_of_an_encoder_is_that_of_its_steps() {
+        // A sine seen in steps of 1: the error is uniform, 1/√12, but the middle third difference is one step.
+        let values: Vec<f64> =
+            (0..20_000).map(|i| (300.0 * (0.013 * f64::from(i)).sin()).round()).collect();
+        let median = identify::doctor::noise(&values);
+        let found = noise(&values, median);
+        let truth = 1.0 / 12f64.sqrt();
+        assert!(
+            (found / truth - 1.0).abs() < 0.05,
+            "{found}, by the median {median}, in truth {truth}"
+        );
+    }
+}

@@ -1,0 +1,273 @@
+//! The derivatives of all residuals by what is free and by what may be missing, as one Gram matrix a block.
+
+use crate::board::{Board, Fitted};
+use identify::{
+    Effect, Rig,
+    effects::{Context, Kind, LAWS, Shape},
+    fit::{FitError, binding::Scale, problem::Problem, window::Window},
+};
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+/// An effect at one probe, and its columns.
+#[derive(Debug, Clone)]
+pub(crate) struct Probe {
+    /// The effect.
+    pub(crate) kind: Kind,
+    /// Its values: amounts at zero, shapes as probed.
+    pub(crate) values: Vec<f64>,
+    /// The places of its amounts among the columns.
+    pub(crate) columns: Vec<usize>,
+    /// What a variable of each column means in the amount's unit.
+    pub(crate) sizes: Vec<f64>,
+}
+
+/// The Gram matrices of all blocks: nominal columns first, then the probes', the residual last.
+#[derive(Debug, Clone)]
+pub(crate) struct Gram {
+    /// How many nominal columns there are.
+    pub(crate) nominal: usize,
+    /// The names of the nominal columns.
+    pub(crate) names: Vec<String>,
+    /// What holds each nominal column near its value: the inverse square of how far it may be off, and 0 for what
+    /// may be anywhere.
+    pub(crate) prior: Vec<f64>,
+    /// How many residuals there are.
+    pub(crate) residuals: f64,
+    /// The effects at their probes.
+    pub(crate) probes: Vec<Probe>,
+    /// One matrix a block.
+    pub(crate) blocks: Vec<DMatrix<f64>>,
+}
+
+/// What can be missing, effect by effect, with the probes of each.
+pub(crate) fn lacking(
+    board: &Board<'_>,
+    rig: &Rig,
+    context: &Context,
+) -> Vec<(Kind, Vec<Vec<f64>>)> {
+    // What is only a little loose can still be missing.
+    let mut own = rig.clone();
+    own.free.retain(|name| !board.loose.iter().any(|(loose, _)| loose == name));
+    let applies = LAWS.iter().copied().filter(|kind| kind.applies(&own));
+    let probes = |kind: Kind| {
+        let all = (kind.about().probes)(context);
+        if all.is_empty() { vec![Vec::new()] } else { all }
+    };
+    applies.map(|kind| (kind, probes(kind))).collect()
+}
+
+/// Whether an effect can be scored along a derivative.
+pub(crate) fn has_amount(kind: Kind) -> bool {
+    kind.about().keys.iter().any(|key| key.shape == Shape::Amount)
+}
+
+/// `rig` with an effect that changes nothing yet, its amounts free; its values. A number other than 0 stands behind
+/// its name, so that several probes of one effect can stand side by side.
+pub(crate) fn with(rig: &mut Rig, kind: Kind, probe: &[f64], number: usize) -> Vec<f64> {
+    let about = kind.about();
+    let mut shapes = probe.iter().copied();
+    let values: Vec<f64> = about
+        .keys
+        .iter()
+        .map(|key| if key.shape == Shape::Amount { 0.0 } else { shapes.next().unwrap_or(1.0) })
+        .collect();
+    let named = about.keys.iter().zip(&values).map(|(key, v)| (key.name.to_owned(), *v)).collect();
+    let name = if number == 0 { about.name.to_owned() } else { format!("{}#{number}", about.name) };
+    let amounts = about.keys.iter().filter(|key| key.shape == Shape::Amount);
+    rig.free.extend(amounts.map(|key| format!("{name}.{}", key.name)));
+    rig.effects.push(Effect { name, values: named });
+    values
+}
+
+/// How many columns one pass over the record can carry.
+const PASS: usize = 12;
+
+/// How many amounts an effect has.
+fn amounts(kind: Kind) -> usize {
+    kind.about().keys.iter().filter(|key| key.shape == Shape::Amount).count()
+}
+
+impl Gram {
+    /// Of a fitted model and all that it may lack.
+    pub(crate) fn of(
+        board: &Board<'_>,
+        fitted: &Fitted,
+        context: &Context,
+    ) -> Result<Self, FitError> {
+        let lacking = lacking(board, &fitted.rig, context);
+        let own = board.problem(&fitted.rig, |_| true)?;
+        let (nominal, names) =
+            (own.free.len(), own.free.iter().map(|f| f.name.clone()).collect::<Vec<_>>());
+        let mut columns: Vec<Vec<DMatrix<f64>>> =
+            jacobians(board, &own, &fitted.x, fitted).into_iter().map(|j| vec![j]).collect();
+        let mut all: Vec<(Kind, Vec<f64>)> = Vec::new();
+        for (kind, probes) in lacking.into_iter().filter(|(kind, _)| has_amount(*kind)) {
+            all.extend(probes.into_iter().map(|probe| (kind, probe)));
+        }
+        let (mut probes, mut place, mut next): (Vec<Probe>, _, _) = (Vec::new(), nominal, 0);
+        while next < all.len() {
+            let mut rig = Rig { free: Vec::new(), ..fitted.rig.clone() };
+            let first = probes.len();
+            let mut taken = 0;
+            while next < all.len() && taken + amounts(all[next].0) <= PASS {
+                let (kind, probe) = &all[next];
+                let n = amounts(*kind);
+                let values = with(&mut rig, *kind, probe, next + 1);
+                let columns = (place + taken..place + taken + n).collect();
+                probes.push(Probe { kind: *kind, values, columns, sizes: vec![1.0; n] });
+                (next, taken) = (next + 1, taken + n);
+            }
+            let problem = board.problem(&rig, |_| true)?;
+            let mut sizes = problem.free.iter().map(|f| f.slope(0.0));
+            for probe in &mut probes[first..] {
+                probe.sizes.fill_with(|| sizes.next().unwrap_or(1.0));
+            }
+            for (k, j) in
+                jacobians(board, &problem, &vec![0.0; taken], fitted).into_iter().enumerate()
+            {
+                columns[k].push(j);
+            }
+            place += taken;
+        }
+        let residuals = residuals(board, &own, fitted);
+        let (prior, count) = (prior(&own), residuals.iter().map(|r| r.len() as f64).sum());
+        let windows = columns.into_par_iter().zip(residuals).map(|(columns, r)| gram(&columns, &r));
+        let blocks = folded(board, windows.collect());
+        Ok(Self { nominal, names, prior, residuals: count, probes, blocks })
+    }
+
+    /// Of a fitted model and all that `rig` has free beside it, as one probe.
+    pub(crate) fn of_rig(board: &Board<'_>, fitted: &Fitted, rig: &Rig) -> Result<Self, FitError> {
+        let own = board.problem(&fitted.rig, |_| true)?;
+        let problem = board.problem(rig, |_| true)?;
+        let nominal = own.free.len();
+        let names = own.free.iter().map(|f| f.name.clone()).collect();
+        let sizes: Vec<f64> = problem.free.iter().skip(nominal).map(|f| f.slope(0.0)).collect();
+        let x: Vec<f64> = fitted.x.iter().copied().chain(vec![0.0; sizes.len()]).collect();
+        let jacobians = jacobians(board, &problem, &x, fitted);
+        let residuals = residuals(board, &own, fitted);
+        let (prior, count) = (prior(&own), residuals.iter().map(|r| r.len() as f64).sum());
+        let both = jacobians.into_par_iter().zip(residuals);
+        let windows = both.map(|(columns, r)| gram(&[columns], &r)).collect();
+        let blocks = folded(board, windows);
+        let probes = vec![crate::maps::probe(nominal, sizes)];
+        Ok(Self { nominal, names, prior, residuals: count, probes, blocks })
+    }
+
+    /// The same, the nominal columns held near their values as much as the misfit asks for.
+    pub(crate) fn held(&self, take: impl Fn(usize) -> bool) -> DMatrix<f64> {
+        let mut sum = self.sum(take);
+        let last = sum.nrows() - 1;
+        let variance = (sum[(last, last)] / self.residuals).max(1.0);
+        for (i, prior) in self.prior.iter().enumerate() {
+            sum[(i, i)] += prior * variance;
+        }
+        sum
+    }
+
+    /// The sum over the blocks that `take` says.
+    pub(crate) fn sum(&self, take: impl Fn(usize) -> bool) -> DMatrix<f64> {
+        let n = self.blocks.first().map_or(0, DMatrix::nrows);
+        let taken = self.blocks.iter().enumerate().filter(|(k, _)| take(*k));
+        taken.fold(DMatrix::zeros(n, n), |sum, (_, block)| sum + block)
+    }
+}
+
+/// How far a nominal value may be off, in its logarithm, before an effect is the better explanation.
+const OFF: f64 = 0.1;
+
+/// What holds the free parameters near their values.
+fn prior(problem: &Problem<'_>) -> Vec<f64> {
+    let loose = |name: &str| problem.priors.iter().find(|(n, ..)| n == name).map(|p| p.2.powi(-2));
+    let held = problem.free.iter().map(|free| match free.scale {
+        _ if loose(&free.name).is_some() => loose(&free.name).unwrap_or(0.0),
+        Scale::Linear(_) => 0.0,
+        Scale::Logarithm(_) | Scale::Above(_) | Scale::InverseSquare(_) => OFF.powi(-2),
+    });
+    held.collect()
+}
+
+/// The sums over the windows of each block.
+fn folded(board: &Board<'_>, windows: Vec<DMatrix<f64>>) -> Vec<DMatrix<f64>> {
+    let mut blocks: Vec<Option<DMatrix<f64>>> = vec![None; board.trains.len()];
+    for (w, matrix) in windows.into_iter().enumerate() {
+        let block = &mut blocks[board.block(w)];
+        *block = Some(match block.take() {
+            Some(sum) => sum + matrix,
+            None => matrix,
+        });
+    }
+    blocks.into_iter().flatten().collect()
+}
+
+fn gram(columns: &[DMatrix<f64>], residual: &DVector<f64>) -> DMatrix<f64> {
+    let rows = residual.len();
+    let all: usize = columns.iter().map(DMatrix::ncols).sum();
+    let mut joined = DMatrix::zeros(rows, all + 1);
+    let mut first = 0;
+    for part in columns {
+        joined.columns_mut(first, part.ncols()).copy_from(part);
+        first += part.ncols();
+    }
+    joined.set_column(all, residual);
+    joined.tr_mul(&joined)
+}
+
+/// The derivatives of every block's residuals, those of the load cells last.
+fn jacobians(
+    board: &Board<'_>,
+    problem: &Problem<'_>,
+    x: &[f64],
+    fitted: &Fitted,
+) -> Vec<DMatrix<f64>> {
+    let slopes = problem.all_slopes(x, &fitted.pieces);
+    let loads = problem.cells(x).1;
+    let channels = problem.channels();
+    let samples: usize = board.windows.iter().map(Window::len).sum();
+    let one = |k: usize| {
+        let window = &board.windows[k];
+        let n = window.len();
+        let own = if board.imposed() {
+            slopes[0].jacobian.rows(window.first, n).into_owned()
+        } else {
+            slopes[k].jacobian.rows(0, n * channels).into_owned()
+        };
+        if loads.nrows() == 0 {
+            return own;
+        }
+        let rows = own.nrows();
+        let mut all = DMatrix::zeros(rows + 2 * n, own.ncols());
+        all.rows_mut(0, rows).copy_from(&own);
+        for cell in 0..2 {
+            let from = cell * samples + window.first - board.windows[0].first;
+            all.rows_mut(rows + cell * n, n).copy_from(&loads.rows(from, n));
+        }
+        all
+    };
+    (0..board.windows.len()).map(one).collect()
+}
+
+/// Every block's residuals in the same order.
+fn residuals(board: &Board<'_>, problem: &Problem<'_>, fitted: &Fitted) -> Vec<DVector<f64>> {
+    let loads = problem.cells(&fitted.x).0;
+    let channels = problem.channels();
+    let samples: usize = board.windows.iter().map(Window::len).sum();
+    let one = |k: usize| {
+        let window = &board.windows[k];
+        let n = window.len();
+        let mut all: Vec<f64> = if board.imposed() {
+            fitted.pieces[0].residuals[window.first..window.end].to_vec()
+        } else {
+            fitted.pieces[k].residuals[..n * channels].to_vec()
+        };
+        if !loads.is_empty() {
+            for cell in 0..2 {
+                let from = cell * samples + window.first - board.windows[0].first;
+                all.extend_from_slice(&loads[from..from + n]);
+            }
+        }
+        DVector::from_vec(all)
+    };
+    (0..board.windows.len()).map(one).collect()
+}

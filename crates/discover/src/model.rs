@@ -1,0 +1,160 @@
+//! A model with an effect added, refitted in full.
+
+use crate::{
+    board::{Board, Fitted},
+    gram,
+    screen::Scored,
+};
+use identify::{
+    Rig,
+    effects::{Context, Kind, Shape, Sign},
+    fit::{FitError, problem::Problem, search::Patience},
+};
+
+/// Enough to see whether a candidate is worth more, and enough for one that is.
+const GLANCE: Patience = Patience { misfit: 2.0, share: 1e-3, simulations: 5 };
+const PATIENCE: Patience = Patience { misfit: 2.0, share: 1e-4, simulations: 14 };
+
+/// Enough to come near from far off.
+const AFRESH: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 16 };
+
+/// An effect and the model that has it.
+#[derive(Debug, Clone)]
+pub(crate) struct Candidate {
+    /// The effect.
+    pub(crate) kind: Kind,
+    /// The model with it, fitted on the training blocks.
+    pub(crate) fitted: Fitted,
+}
+
+/// Goes on with a candidate.
+pub(crate) fn follow(board: &Board<'_>, candidate: Candidate) -> Result<Candidate, FitError> {
+    let near = &candidate.fitted;
+    let fitted = board.fit(&near.rig, Some((&near.x, &near.pieces)), &PATIENCE)?;
+    let better = board.trained(&fitted) < board.trained(near);
+    Ok(if better { Candidate { fitted, ..candidate } } else { candidate })
+}
+
+/// The model with an effect at what its score says, all of it free.
+fn with(fitted: &Fitted, scored: &Scored) -> Rig {
+    let about = scored.kind.about();
+    let mut rig = fitted.rig.clone();
+    let shapes: Vec<f64> = about
+        .keys
+        .iter()
+        .zip(&scored.values)
+        .filter(|(key, _)| key.shape != Shape::Amount)
+        .map(|(_, value)| *value)
+        .collect();
+    gram::with(&mut rig, scored.kind, &shapes, 0);
+    for key in about.keys.iter().filter(|key| key.shape == Shape::Fitted) {
+        rig.free.push(format!("{}.{}", about.name, key.name));
+    }
+    for (key, value) in about.keys.iter().zip(&scored.values) {
+        let name = format!("{}.{}", about.name, key.name);
+        identify::fit::binding::set(&mut rig, &name, *value);
+    }
+    rig
+}
+
+/// Refits the model with an effect from values that are far from the truth, by way of `short` windows.
+pub(crate) fn afresh(
+    board: &Board<'_>,
+    short: &Board<'_>,
+    (fitted, scored): (&Fitted, &Scored),
+) -> Result<Candidate, FitError> {
+    let rig = with(fitted, scored);
+    Ok(Candidate { kind: scored.kind, fitted: board.refit(&rig, Some(short), &AFRESH)? })
+}
+
+/// Refits the model with an effect, begun at what its score says, as far as a glance goes.
+pub(crate) fn refit(
+    board: &Board<'_>,
+    fitted: &Fitted,
+    scored: &Scored,
+) -> Result<Candidate, FitError> {
+    let rig = with(fitted, scored);
+    let problem = board.problem(&rig, |_| true)?;
+    let x = begin(&problem, fitted, scored);
+    let candidate = board.fit(&rig, Some((&x, &fitted.pieces)), &GLANCE)?;
+    Ok(Candidate { kind: scored.kind, fitted: candidate })
+}
+
+/// A nominal variable moves no further than this before the first simulation.
+const FIRST: f64 = 0.2;
+
+/// The variables of the larger problem: those of the smaller with what the score moves them by, then what the effect
+/// begins with.
+fn begin(problem: &Problem<'_>, fitted: &Fitted, scored: &Scored) -> Vec<f64> {
+    let by = scored.nominal.iter().map(|by| by.clamp(-FIRST, FIRST)).chain(std::iter::repeat(0.0));
+    let own = fitted.x.iter().zip(by).map(|(x, by)| x + by);
+    let more = problem.free.iter().skip(fitted.x.len()).map(|free| free.variable(free.given));
+    own.chain(more).collect()
+}
+
+/// What a parameter may change by, in its logarithm, when an effect that it had taken up is given its own name.
+const FAR: f64 = 3.0;
+
+/// Whether every value has a plausible sign and size, and no nominal parameter went to an absurd one.
+pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, refitted: &Rig) -> bool {
+    let about = kind.about();
+    let own = about.keys.iter().all(|key| {
+        let value = rig.value(&format!("{}.{}", about.name, key.name)).unwrap_or(0.0);
+        let size = context.size(key.measure);
+        let sign = match key.sign {
+            Sign::Any => true,
+            Sign::Positive => value >= 0.0,
+            Sign::Negative => value <= 0.0,
+        };
+        sign && value.is_finite() && (key.shape != Shape::Amount || value.abs() <= key.most * size)
+    });
+    let kept = refitted.free.iter().filter(|name| !name.contains('.')).all(|name| {
+        match (rig.value(name), refitted.value(name)) {
+            (Some(now), Some(then))
+                if then > 0.0 && now > 0.0 && name != "v_s" && name != "f_s" =>
+            {
+                (now / then).ln().abs() < FAR
+            }
+            _ => true,
+        }
+    });
+    own && kept
+}
+
+/// The sizes of a record, in which effects are measured.
+pub(crate) fn context(board: &Board<'_>, fitted: &Fitted) -> Context {
+    let data = board.data;
+    let rig = &fitted.rig;
+    let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let model = identify::fit::binding::model::<f64>(rig, &|_| None);
+    let input = if board.imposed() { 1.0 } else { largest(&data.input).max(f64::MIN_POSITIVE) };
+    let drive = data.force(rig);
+    let level = model.contact.level();
+    let moved = match (&data.displacement, board.imposed()) {
+        (Some(seen), _) => seen.values.as_slice(),
+        (None, _) => data.input.as_slice(),
+    };
+    let (low, high) =
+        moved.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+    let speed = if board.imposed() {
+        let steps = data.input.windows(2).zip(data.time.windows(2));
+        steps.map(|(u, t)| ((u[1] - u[0]) / (t[1] - t[0])).abs()).fold(0.0, f64::max)
+    } else {
+        data.speed()
+    };
+    let pull =
+        data.loads.as_ref().map_or(0.0, |l| largest(&l[0].values).max(largest(&l[1].values)));
+    Context {
+        input,
+        force: if level > 0.0 { level } else { drive },
+        drive,
+        pull: pull.max(1e-9),
+        speed: speed.max(1e-12),
+        span: (high - low).max(1e-12),
+        memory: model.contact.memory(),
+        duration: data.time[data.time.len() - 1] - data.time[0],
+        sample_time: data.sample_time(),
+        mass: model.balance.mass,
+        turns: identify::rig::Kind::of(rig.kind).is_some_and(identify::rig::Kind::turns),
+    }
+}

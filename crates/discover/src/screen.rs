@@ -1,0 +1,173 @@
+//! The score of every effect: what a small amount of it would explain that the free parameters cannot.
+
+use crate::gram::{Gram, Probe};
+use identify::effects::{Kind, Sign};
+use nalgebra::{DMatrix, DVector};
+
+/// An effect at its best probe, along the derivative.
+#[derive(Debug, Clone)]
+pub(crate) struct Scored {
+    /// The effect.
+    pub(crate) kind: Kind,
+    /// Its values, amounts estimated and shapes as probed.
+    pub(crate) values: Vec<f64>,
+    /// By how much each nominal variable moves with it.
+    pub(crate) nominal: Vec<f64>,
+    /// By how much the sum of squares falls on the training blocks [1].
+    pub(crate) gain: f64,
+    /// The sum of squares left in every block [1].
+    pub(crate) left: Vec<f64>,
+    /// Whether its signs are plausible.
+    pub(crate) plausible: bool,
+}
+
+/// How small an amount shows, and what hides it.
+#[derive(Debug, Clone)]
+pub(crate) struct Visible {
+    /// The effect.
+    pub(crate) kind: Kind,
+    /// The amount that is 5 standard errors [its unit], of its first amount.
+    pub(crate) amount: f64,
+    /// The free parameter that takes up most of it.
+    pub(crate) hidden_by: Option<String>,
+}
+
+/// A direction of the free parameters that is this much flatter than the steepest is left alone.
+const FLAT: f64 = 1e-10;
+
+/// The best change along `places` on a Gram matrix whose last column is the residual.
+fn best(gram: &DMatrix<f64>, places: &[usize]) -> DVector<f64> {
+    let n = places.len();
+    if n == 0 {
+        return DVector::zeros(0);
+    }
+    let residual = gram.nrows() - 1;
+    let size: Vec<f64> = places.iter().map(|i| gram[(*i, *i)].max(1e-300).sqrt()).collect();
+    let scaled = DMatrix::from_fn(n, n, |a, b| gram[(places[a], places[b])] / (size[a] * size[b]));
+    let right = DVector::from_fn(n, |a, _| -gram[(places[a], residual)] / size[a]);
+    let eigen = scaled.symmetric_eigen();
+    let along = eigen.eigenvectors.transpose() * right;
+    let moved = DVector::from_fn(n, |a, _| {
+        if eigen.eigenvalues[a] > FLAT { along[a] / eigen.eigenvalues[a] } else { 0.0 }
+    });
+    let back = &eigen.eigenvectors * moved;
+    DVector::from_fn(n, |a, _| back[a] / size[a])
+}
+
+/// The sum of squares after the change `by` along `places`.
+fn left(gram: &DMatrix<f64>, places: &[usize], by: &DVector<f64>) -> f64 {
+    let r = gram.nrows() - 1;
+    let mut sum = gram[(r, r)];
+    for (a, i) in places.iter().enumerate() {
+        sum += 2.0 * by[a] * gram[(*i, r)];
+        for (b, j) in places.iter().enumerate() {
+            sum += by[a] * by[b] * gram[(*i, *j)];
+        }
+    }
+    sum.max(0.0)
+}
+
+/// All amounts of the only probe together: what they are in their sizes, by how much the sum of squares falls on the
+/// training blocks, and what is left in every block. A little is asked of them to be small, for some are seen nowhere.
+pub(crate) fn joint(gram: &Gram, trains: &[bool]) -> (Vec<f64>, f64, Vec<f64>) {
+    let mut train = gram.held(|k| trains[k]);
+    let own: Vec<usize> = (0..gram.nominal).collect();
+    let without = left(&train, &own, &best(&train, &own));
+    let plain = train.clone();
+    let probe = &gram.probes[0];
+    for column in &probe.columns {
+        train[(*column, *column)] *= 1.0 + 1e-3;
+    }
+    let places: Vec<usize> = own.iter().chain(&probe.columns).copied().collect();
+    let by = best(&train, &places);
+    let blocks = gram.blocks.iter().map(|block| left(block, &places, &by)).collect();
+    let gain = without - left(&plain, &places, &by);
+    (by.iter().skip(gram.nominal).copied().collect(), gain, blocks)
+}
+
+/// The effects that would explain something, the best first, each at its best probe.
+pub(crate) fn scores(gram: &Gram, trains: &[bool]) -> Vec<Scored> {
+    let train = gram.held(|k| trains[k]);
+    let own: Vec<usize> = (0..gram.nominal).collect();
+    let without = left(&train, &own, &best(&train, &own));
+    let mut all: Vec<Scored> =
+        gram.probes.iter().map(|probe| score(gram, &train, without, probe)).collect();
+    all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    let mut seen = Vec::new();
+    all.retain(|s| {
+        let first = !seen.contains(&s.kind);
+        seen.push(s.kind);
+        first
+    });
+    all
+}
+
+fn score(gram: &Gram, train: &DMatrix<f64>, without: f64, probe: &Probe) -> Scored {
+    let places: Vec<usize> = (0..gram.nominal).chain(probe.columns.iter().copied()).collect();
+    let by = best(train, &places);
+    let mut values = probe.values.clone();
+    let mut amounts = 0;
+    let mut plausible = true;
+    for (value, key) in values.iter_mut().zip(probe.kind.about().keys) {
+        if key.shape != identify::effects::Shape::Amount {
+            continue;
+        }
+        *value = by[gram.nominal + amounts] * probe.sizes[amounts];
+        plausible &= match key.sign {
+            Sign::Any => true,
+            Sign::Positive => *value >= 0.0,
+            Sign::Negative => *value <= 0.0,
+        };
+        amounts += 1;
+    }
+    let after = left(train, &places, &by);
+    let blocks = gram.blocks.iter().map(|block| left(block, &places, &by)).collect();
+    let nominal = by.iter().take(gram.nominal).copied().collect();
+    Scored { kind: probe.kind, values, nominal, gain: without - after, left: blocks, plausible }
+}
+
+/// The smallest amounts that would show on this record, at five standard errors.
+pub(crate) fn detectability(gram: &Gram) -> Vec<Visible> {
+    let all = gram.sum(|_| true);
+    let mut found: Vec<Visible> = Vec::new();
+    for probe in &gram.probes {
+        if found.iter().any(|v| v.kind == probe.kind) {
+            continue;
+        }
+        let column = probe.columns[0];
+        let whole = all[(column, column)];
+        let as_residual = |j: usize| {
+            let mut places: Vec<usize> = (0..gram.nominal).filter(|i| *i != j).collect();
+            places.push(column);
+            places
+        };
+        let own: Vec<usize> = (0..gram.nominal).collect();
+        let rest = projected(&all, column, &own);
+        let shares = (0..gram.nominal).map(|j| {
+            let without = as_residual(j);
+            projected(&all, column, &without[..without.len() - 1])
+        });
+        let hidden_by = shares
+            .enumerate()
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .filter(|(_, left)| *left > 1.5 * rest && rest < 0.9 * whole)
+            .map(|(j, _)| gram.names[j].clone());
+        let amount = 5.0 * probe.sizes[0] / rest.max(1e-300).sqrt();
+        found.push(Visible { kind: probe.kind, amount, hidden_by });
+    }
+    found
+}
+
+/// What is left of a column's square when `places` are projected out.
+fn projected(gram: &DMatrix<f64>, column: usize, places: &[usize]) -> f64 {
+    let n = places.len();
+    let mut small = DMatrix::zeros(n + 1, n + 1);
+    let index: Vec<usize> = places.iter().copied().chain([column]).collect();
+    for (a, i) in index.iter().enumerate() {
+        for (b, j) in index.iter().enumerate() {
+            small[(a, b)] = gram[(*i, *j)];
+        }
+    }
+    let own: Vec<usize> = (0..n).collect();
+    left(&small, &own, &best(&small, &own))
+}

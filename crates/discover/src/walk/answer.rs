@@ -1,0 +1,253 @@
+//! What is told of the way's end.
+
+use super::{FIRST, MOST, SURE, Walk};
+use crate::{
+    board::Fitted,
+    decide::shrink,
+    gram::Gram,
+    maps::{self, Map},
+    screen,
+    verdict::{Discovery, Found, Gap, Limit, MapOf, Moved, Share, Value, Verdict, name},
+    wrong::{Minimum, wrong},
+};
+use identify::{
+    Rig,
+    effects::Context,
+    fit::{FitError, starts},
+};
+
+/// What is left may be so much larger than the floor before it is said that more is missing.
+const MORE: f64 = 1.4;
+
+/// A map shows where something acts if it takes away so much; what leaves more than this needs no map.
+const SHOWN: f64 = 0.2;
+const MUCH: f64 = 4.0;
+
+/// An effect is a part of what is missing if it takes away so much of the logarithm of the mean squared residual.
+const NAMED: f64 = 0.5;
+
+/// So far above the noise of the sensors no model of a real drive comes down to it, and half of the excess is a part.
+const NO_NOISE: f64 = 1e5;
+
+/// A nominal parameter that moves further was wrong: nominal values are a little off, always.
+const WRONG: f64 = 0.08;
+
+impl Walk<'_> {
+    pub(super) fn answer(
+        mut self,
+        (rig, before, refit): (&Rig, &Fitted, &Fitted),
+        (mut effects, start): (Vec<Found>, &Gram),
+        context: &Context,
+    ) -> Result<Discovery, FitError> {
+        let [first, nominal, last] =
+            [before, refit, &self.best].map(|f| self.judged(&f.blocks).level());
+        let middles = [before, refit, &self.best].map(|f| self.judged(&f.blocks).middle());
+        let unexplained = middles[2].min(last) > MORE || last > MUCH;
+        let map = if unexplained { self.map(context)? } else { None };
+        let (values, wrong) = self.values(rig)?;
+        for effect in &mut effects {
+            effect.values = values
+                .iter()
+                .filter(|v| v.name.starts_with(&format!("{}.", effect.name)))
+                .map(|v| Value { name: v.name[effect.name.len() + 1..].to_owned(), ..v.clone() })
+                .collect();
+        }
+        let parameters: Vec<Moved> = values
+            .iter()
+            .filter(|v| !v.name.contains('.'))
+            .map(|found| {
+                let given = rig.value(&found.name).unwrap_or(f64::NAN);
+                let own = !self.board.loose.iter().any(|(name, _)| *name == found.name);
+                let surely = own && wrong.contains(&found.name) && moved(given, found);
+                Moved { given, found: found.clone(), moved: surely }
+            })
+            .collect();
+        let mut parameters = parameters;
+        if parameters.iter().any(|p| p.moved) && !self.far(&parameters)? {
+            for parameter in &mut parameters {
+                parameter.moved = false;
+            }
+        }
+        let verdict =
+            verdict(&effects, &parameters, ([first, nominal, last], middles), map.as_ref());
+        if verdict == Verdict::NotInLibrary {
+            effects.clear();
+        }
+        let detectability = screen::detectability(start)
+            .into_iter()
+            .map(|v| Limit {
+                name: name(v.kind),
+                amount: v.amount,
+                unit: v.kind.about().unit(v.kind.about().keys[0].name, rig),
+                hidden_by: v.hidden_by,
+            })
+            .collect();
+        Ok(Discovery {
+            verdict,
+            parameters,
+            effects,
+            gap: self.gaps(before, refit),
+            shares: self.shares(refit),
+            map,
+            ranking: std::mem::take(&mut self.ranking),
+            detectability,
+            chi_squared: [first, nominal, last],
+            rig: self.best.rig,
+        })
+    }
+
+    /// Whether the model is surely worse with the values that were given of what moved.
+    fn far(&self, parameters: &[Moved]) -> Result<bool, FitError> {
+        let mut rig = self.best.rig.clone();
+        for moved in parameters.iter().filter(|p| p.moved) {
+            identify::fit::binding::set(&mut rig, &moved.found.name, moved.given);
+            rig.free.retain(|name| *name != moved.found.name);
+        }
+        let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
+        let near = self.board.fit(&rig, Some((&x, &self.best.pieces)), &FIRST)?;
+        let (near, free) = (self.judged(&near.blocks), self.judged(&self.best.blocks));
+        Ok(near.against(&free) > SURE && near.level() > 1.05 * free.level())
+    }
+
+    fn map(&self, context: &Context) -> Result<Option<MapOf>, FitError> {
+        let now = self.judged(&self.best.blocks).level();
+        // The residuals are those of the fine steps, the derivatives need not be.
+        let all = maps::maps(&self.board, &self.best, context)?;
+        let rated = all.into_iter().map(|map: Map| {
+            let blocks: Vec<Vec<f64>> = map.left.iter().map(|sum| vec![*sum]).collect();
+            let gone = shrink(now, self.judged(&blocks).level());
+            MapOf { axis: map.axis, at: map.at, force: map.force, shrink: gone }
+        });
+        Ok(rated.max_by(|a, b| a.shrink.total_cmp(&b.shrink)))
+    }
+
+    /// All free values of the last model with their standard errors, and the names of those for which `rig` has a
+    /// wrong value.
+    fn values(&self, rig: &Rig) -> Result<(Vec<Value>, Vec<String>), FitError> {
+        let problem = self.board.problem(&self.best.rig, |_| true)?;
+        let gram = Gram::of_rig(&self.board, &self.best, &self.best.rig)?;
+        let all = gram.sum(|_| true);
+        let n = gram.nominal;
+        let size: Vec<f64> = (0..n).map(|i| all[(i, i)].max(1e-300).sqrt()).collect();
+        let scaled = nalgebra::DMatrix::from_fn(n, n, |i, j| all[(i, j)] / (size[i] * size[j]));
+        let inverse = scaled.try_inverse();
+        let variance = self.judged(&self.best.blocks).mean().max(1.0);
+        let values = (0..n).map(|i| {
+            let value = problem.value(i, &self.best.x);
+            let own = problem.free[i].value(self.best.x[i]);
+            let error = inverse.as_ref().map_or(f64::NAN, |inverse| {
+                (variance * inverse[(i, i)].abs()).sqrt() / size[i]
+                    * problem.free[i].slope(own).abs()
+            });
+            let name = problem.free[i].name.clone();
+            let unit = self.best.rig.unit(&name);
+            Value { name, value, standard_error: error, unit }
+        });
+        let values = values.collect();
+        let curvature = all.view((0, 0), (n, n)) / variance;
+        let wrong = wrong(&Minimum { problem: &problem, x: &self.best.x, curvature }, rig);
+        let names = wrong.into_iter().map(|i| problem.free[i].name.clone()).collect();
+        Ok((values, names))
+    }
+
+    fn gaps(&self, before: &Fitted, refit: &Fitted) -> Vec<Gap> {
+        let data = self.board.data;
+        let w = &self.board.weights;
+        let mut channels: Vec<(String, f64)> = Vec::new();
+        if let Some(seen) = &data.force {
+            channels.push((seen.name.clone(), w.force));
+        }
+        if let Some(seen) = &data.displacement {
+            channels.push((seen.name.clone(), w.displacement));
+        }
+        if let Some(seen) = &data.velocity {
+            channels.push((seen.name.clone(), w.velocity));
+        }
+        if data.loads.is_some() {
+            channels.push(("force_1".to_owned(), w.loads[0]));
+            channels.push(("force_2".to_owned(), w.loads[1]));
+        }
+        let samples = self.board.samples();
+        let samples: f64 = self.judging().map(|k| samples[k]).sum();
+        let rms = |f: &Fitted, c: usize, weight: f64| {
+            let sum: f64 = self.judging().map(|k| f.blocks[k][c]).sum();
+            weight * (sum / samples).sqrt()
+        };
+        let one = |(c, (channel, weight)): (usize, (String, f64))| Gap {
+            unit: unit_of(&self.best.rig, &channel),
+            before: rms(before, c, weight),
+            refit: rms(refit, c, weight),
+            after: rms(&self.best, c, weight),
+            floor: weight,
+            channel,
+        };
+        channels.into_iter().enumerate().map(one).collect()
+    }
+
+    fn judging(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.board.trains.len()).filter(|k| !self.board.trains[*k])
+    }
+
+    /// Where the refitted nominal model's excess is, by thirds of the record and by the state of the motion.
+    fn shares(&self, refit: &Fitted) -> Vec<Share> {
+        let excess: Vec<f64> = refit
+            .blocks
+            .iter()
+            .zip(&self.counts)
+            .map(|(block, count)| (block.iter().sum::<f64>() - count).max(0.0))
+            .collect();
+        let all: f64 = excess.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+        let n = excess.len();
+        let third = |i: usize| excess[i * n / 3..(i + 1) * n / 3].iter().sum::<f64>() / all;
+        ["first third", "second third", "last third"]
+            .into_iter()
+            .enumerate()
+            .map(|(i, part)| Share { part, share: third(i) })
+            .collect()
+    }
+}
+
+/// The unit of a channel.
+fn unit_of(rig: &Rig, channel: &str) -> &'static str {
+    let turns = identify::rig::Kind::of(rig.kind).is_some_and(identify::rig::Kind::turns);
+    match (channel, turns) {
+        ("angle", _) => "rad",
+        ("velocity", true) => "rad/s",
+        ("velocity", false) => "m/s",
+        ("position" | "displacement", _) => "m",
+        _ => "N",
+    }
+}
+
+/// Whether a nominal value was wrong by more than nominal values are, and surely.
+fn moved(given: f64, found: &Value) -> bool {
+    let away = (found.value - given).abs();
+    away > 5.0 * found.standard_error && away > WRONG * given.abs()
+}
+
+fn verdict(
+    effects: &[Found],
+    parameters: &[Moved],
+    ([before, refit, last], middles): ([f64; 3], [f64; 3]),
+    map: Option<&MapOf>,
+) -> Verdict {
+    let mapped = map.map_or(0.0, |map| map.shrink);
+    // A few blocks that went astray say little; where most are off, all of them count.
+    let more =
+        |level: f64, middle: f64| level > MUCH || (level.min(middle) > MORE && mapped > SHOWN);
+    if effects.is_empty() {
+        if more(refit, middles[1]) {
+            return Verdict::NotInLibrary;
+        }
+        let wrong = parameters.iter().any(|p| p.moved) && before > refit * 1.05;
+        return if wrong { Verdict::Parameter } else { Verdict::NothingMissing };
+    }
+    if !more(last, middles[2]) {
+        return Verdict::Effect;
+    }
+    // What takes away a part of something else is not its name.
+    let named = (refit / last).ln() / refit.ln();
+    let first = effects.first().map_or(0.0, |effect| effect.shrink);
+    let part = named > NAMED || (last > NO_NOISE && first > MOST);
+    if part && mapped < first.max(MOST) { Verdict::Partial } else { Verdict::NotInLibrary }
+}

@@ -1,0 +1,94 @@
+//! Which given values are wrong: the fewest that have to move further than nominal values are off.
+//!
+//! Along a ridge of the misfit a fit moves many parameters far and gains nothing by it. So the question is not where
+//! they went, but what is lost if all but a few stay where a nominal value may be.
+
+use identify::{
+    Rig,
+    fit::{binding::Scale, problem::Problem},
+};
+use nalgebra::{DMatrix, DVector};
+
+/// How much a nominal value is off, of itself.
+const OFF: f64 = 0.02;
+
+/// So many standard deviations of χ² more than expected are too many.
+const TOO_MANY: f64 = 5.0;
+
+/// More wrong values than this are not told one by one.
+const MOST: usize = 4;
+
+/// A fitted model near its minimum.
+pub(crate) struct Minimum<'a> {
+    /// The problem, its variables counted from the fitted values.
+    pub(crate) problem: &'a Problem<'a>,
+    /// The variables at the minimum.
+    pub(crate) x: &'a [f64],
+    /// JᵀJ, of all residuals divided by their standard deviation.
+    pub(crate) curvature: DMatrix<f64>,
+}
+
+/// Which of the free parameters are wrong: their places.
+pub(crate) fn wrong(minimum: &Minimum<'_>, rig: &Rig) -> Vec<usize> {
+    let n = minimum.x.len();
+    if n == 0 {
+        return Vec::new();
+    }
+    let nominal: Vec<Option<(f64, f64)>> = (0..n).map(|i| near(minimum, rig, i)).collect();
+    let count = nominal.iter().flatten().count() as f64;
+    let enough = count + TOO_MANY * (2.0 * count).sqrt();
+    let mut loose: Vec<usize> = Vec::new();
+    while cost(minimum, &nominal, &loose) > enough && loose.len() < MOST.min(n) {
+        let with = |i: &usize| {
+            let more: Vec<usize> = loose.iter().copied().chain([*i]).collect();
+            cost(minimum, &nominal, &more)
+        };
+        let rest = (0..n).filter(|i| nominal[*i].is_some() && !loose.contains(i));
+        let Some(best) = rest.min_by(|a, b| with(a).total_cmp(&with(b))) else { break };
+        loose.push(best);
+    }
+    loose
+}
+
+/// Where the variable of parameter `i` is at its given value, and the inverse square of how far it may be off; none
+/// if nothing is known of it beforehand.
+fn near(minimum: &Minimum<'_>, rig: &Rig, i: usize) -> Option<(f64, f64)> {
+    let free = &minimum.problem.free[i];
+    let given = rig.value(&free.name).filter(|v| *v > 0.0 && !free.name.contains('.'))?;
+    let (at, spread) = match free.scale {
+        Scale::Linear(size) if free.name.starts_with("f_") => (given / size, OFF * given / size),
+        Scale::Linear(_) => return None,
+        Scale::Logarithm(_) => (free.variable(given), OFF),
+        Scale::InverseSquare(_) => {
+            let at = free.variable(given);
+            (at, 2.0 * OFF * at)
+        }
+        Scale::Above(_) => {
+            let below = rig.value("f_c").unwrap_or(0.0);
+            let above = (given - below).max(OFF * given);
+            (free.variable(above), OFF * given.hypot(below) / above)
+        }
+    };
+    at.is_finite().then_some((at, spread.powi(-2)))
+}
+
+/// The least of the misfit above its minimum and of the squares by which all but the `loose` parameters are off, in
+/// standard deviations.
+fn cost(minimum: &Minimum<'_>, nominal: &[Option<(f64, f64)>], loose: &[usize]) -> f64 {
+    let n = nominal.len();
+    let held = |i: usize| nominal[i].filter(|_| !loose.contains(&i)).unwrap_or((minimum.x[i], 0.0));
+    let away = DVector::from_fn(n, |i, _| held(i).0 - minimum.x[i]);
+    let weight = DVector::from_fn(n, |i, _| held(i).1);
+    let mut sum = minimum.curvature.clone();
+    for i in 0..n {
+        // What neither the record nor a nominal value says anything of stays where it is.
+        sum[(i, i)] += weight[i] + f64::MIN_POSITIVE.sqrt();
+    }
+    let scale = DVector::from_fn(n, |i, _| sum[(i, i)].sqrt().recip());
+    let scaled = DMatrix::from_fn(n, n, |i, j| sum[(i, j)] * scale[i] * scale[j]);
+    let right = DVector::from_fn(n, |i, _| weight[i] * away[i] * scale[i]);
+    let Ok(solved) = scaled.svd(true, true).solve(&right, 1e-12) else { return f64::INFINITY };
+    let moved = solved.component_mul(&scale);
+    let pulled: f64 = (0..n).map(|i| weight[i] * (moved[i] - away[i]).powi(2)).sum();
+    (moved.transpose() * &minimum.curvature * &moved)[(0, 0)] + pulled
+}

@@ -1,0 +1,240 @@
+//! What an effect says of itself: its name, its physics, its parameters.
+
+use crate::{Rig, rig::Kind as Plant};
+
+/// Which channel shows an effect first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Channel {
+    /// The balance of torques or forces.
+    Torque,
+    /// Displacement against velocity.
+    Kinematics,
+    /// The load cells.
+    Loads,
+}
+
+/// What a parameter is measured in: its unit and its natural size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// A pure number.
+    One,
+    /// The drive's own unit: A, V, N or N·m.
+    Input,
+    /// N or N·m.
+    Force,
+    /// N, also on a drum, whose springs are pulled.
+    Pull,
+    /// N/s.
+    PullRate,
+    /// N·s/m or N·m·s/rad.
+    Damping,
+    /// N·s²/m² or N·m·s²/rad².
+    Drag,
+    /// N/m or N·m/rad.
+    Stiffness,
+    /// m/N or rad/(N·m).
+    Flexibility,
+    /// N/m³.
+    Cubic,
+    /// m/s or rad/s.
+    Speed,
+    /// m or rad.
+    Length,
+    /// 1/m or 1/rad.
+    Wavenumber,
+    /// s.
+    Time,
+}
+
+/// Which values are plausible.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sign {
+    /// Of either sign.
+    Any,
+    /// Not negative.
+    Positive,
+    /// Not positive.
+    Negative,
+}
+
+/// Whether a parameter is how much of the effect there is, or what the effect is like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// How much: at zero there is no effect.
+    Amount,
+    /// What it is like: always positive, probed at a few values, and fitted with the amount.
+    Fitted,
+    /// What it is like, probed at a few values and then kept.
+    Probed,
+}
+
+/// No number in a rig file is larger, nor smaller than one over it.
+const LARGEST: f64 = 1e60;
+
+/// A parameter of an effect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Key {
+    /// Its key in the rig file.
+    pub name: &'static str,
+    /// Its unit and natural size.
+    pub measure: Measure,
+    /// Amount or shape.
+    pub shape: Shape,
+    /// Which values are plausible.
+    pub sign: Sign,
+    /// The largest plausible size, of its natural one.
+    pub most: f64,
+}
+
+impl Key {
+    /// An amount of either sign, up to `most` of its natural size.
+    pub const fn amount(name: &'static str, measure: Measure, most: f64) -> Self {
+        Self { name, measure, shape: Shape::Amount, sign: Sign::Any, most }
+    }
+
+    /// An amount that cannot be negative.
+    pub const fn positive(name: &'static str, measure: Measure, most: f64) -> Self {
+        Self { sign: Sign::Positive, ..Self::amount(name, measure, most) }
+    }
+
+    /// A shape that is fitted.
+    pub const fn fitted(name: &'static str, measure: Measure) -> Self {
+        Self { shape: Shape::Fitted, ..Self::positive(name, measure, 1e3) }
+    }
+
+    /// A shape that is probed.
+    pub const fn probed(name: &'static str, measure: Measure) -> Self {
+        Self { shape: Shape::Probed, ..Self::positive(name, measure, 1e3) }
+    }
+
+    /// The smallest and the largest value that can be meant whatever the record: a shape is positive, an amount has
+    /// its sign, and one that is a pure number is no larger than plausible.
+    pub fn bounds(&self) -> (f64, f64) {
+        let pure = self.measure == Measure::One && self.shape == Shape::Amount;
+        let most = if pure { self.most } else { LARGEST };
+        match (self.shape, self.sign) {
+            (Shape::Fitted | Shape::Probed, _) => (1.0 / LARGEST, LARGEST),
+            (Shape::Amount, Sign::Any) => (-most, most),
+            (Shape::Amount, Sign::Positive) => (0.0, most),
+            (Shape::Amount, Sign::Negative) => (-most, 0.0),
+        }
+    }
+
+    /// What the bounds leave, in words.
+    pub(crate) fn words(&self) -> &'static str {
+        match (self.shape, self.sign) {
+            (Shape::Fitted | Shape::Probed, _) => "a positive, finite number",
+            (Shape::Amount, Sign::Any) => "a finite number",
+            (Shape::Amount, Sign::Positive) => "a finite number, zero or more",
+            (Shape::Amount, Sign::Negative) => "a finite number, zero or less",
+        }
+    }
+}
+
+/// The sizes of a record, in which effects are measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Context {
+    /// Largest input [its unit].
+    pub input: f64,
+    /// Size of the friction [N], or of the drive where there is none.
+    pub force: f64,
+    /// Largest drive [N].
+    pub drive: f64,
+    /// Size of what the load cells show [N].
+    pub pull: f64,
+    /// Largest speed [m/s].
+    pub speed: f64,
+    /// How far the displacement goes, from the smallest to the largest [m].
+    pub span: f64,
+    /// The distance over which the contact forgets where it was [m].
+    pub memory: f64,
+    /// Length of the record [s].
+    pub duration: f64,
+    /// Sampling time [s].
+    pub sample_time: f64,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Whether the plant turns.
+    pub turns: bool,
+}
+
+impl Context {
+    /// The natural size of a measure.
+    pub fn size(&self, measure: Measure) -> f64 {
+        match measure {
+            Measure::One => 1.0,
+            Measure::Input => self.input,
+            Measure::Force => self.force,
+            Measure::Pull => self.pull,
+            Measure::PullRate => self.pull / self.duration,
+            Measure::Damping => self.force / self.speed,
+            Measure::Drag => self.force / (self.speed * self.speed),
+            Measure::Stiffness => self.force / self.span,
+            Measure::Flexibility => self.span / self.force,
+            Measure::Cubic => self.force / (0.5 * self.span).powi(3),
+            Measure::Speed => self.speed,
+            Measure::Length => self.span,
+            Measure::Wavenumber => std::f64::consts::TAU / self.span,
+            Measure::Time => self.sample_time,
+        }
+    }
+}
+
+/// What an effect says of itself.
+#[derive(Debug)]
+pub struct About {
+    /// Its name, as rig files and answers have it.
+    pub name: &'static str,
+    /// Its physics, in a line.
+    pub physics: &'static str,
+    /// The channel that shows it first.
+    pub channel: Channel,
+    /// Its parameters.
+    pub keys: &'static [Key],
+    /// The shapes that are tried: for each probe the values of the keys that are shapes, in their order.
+    pub probes: fn(&Context) -> Vec<Vec<f64>>,
+    /// When a model can lack it.
+    pub applies: fn(&Rig) -> bool,
+    /// What it is confused with.
+    pub confused: &'static [&'static str],
+    /// What would separate it from those.
+    pub separated_by: &'static str,
+    /// The amount used in its own tests, of its natural size.
+    pub test: f64,
+}
+
+impl About {
+    /// One probe, of an effect that has no shape.
+    pub const fn no_shape(_: &Context) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
+
+    /// The unit of a parameter in `rig`.
+    pub fn unit(&self, key: &str, rig: &Rig) -> &'static str {
+        let Some(key) = self.keys.iter().find(|k| k.name == key) else { return "" };
+        let turns = Plant::of(rig.kind).is_some_and(Plant::turns);
+        let by = |turned: &'static str, slid: &'static str| if turns { turned } else { slid };
+        match key.measure {
+            Measure::One => "",
+            Measure::Input => {
+                match ["current", "voltage"].iter().find(|c| rig.channels.contains_key(**c)) {
+                    Some(&"current") => "A",
+                    Some(_) => "V",
+                    None => by("N·m", "N"),
+                }
+            }
+            Measure::Force => by("N·m", "N"),
+            Measure::Pull => "N",
+            Measure::PullRate => "N/s",
+            Measure::Damping => by("N·m·s/rad", "N·s/m"),
+            Measure::Drag => by("N·m·s²/rad²", "N·s²/m²"),
+            Measure::Stiffness => by("N·m/rad", "N/m"),
+            Measure::Flexibility => by("rad/(N·m)", "m/N"),
+            Measure::Cubic => by("N·m/rad³", "N/m³"),
+            Measure::Speed => by("rad/s", "m/s"),
+            Measure::Length => by("rad", "m"),
+            Measure::Wavenumber => by("1/rad", "1/m"),
+            Measure::Time => "s",
+        }
+    }
+}

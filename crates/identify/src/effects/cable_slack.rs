@@ -1,0 +1,25 @@
+//! `cable_slack`: A cable cannot push: a spring whose force has come down to nothing stays there.
+
+use super::{About, Channel, Key, Law, Load, Measure, family::{has_springs}};
+use crate::march::Real;
+
+/// A cable cannot push: a spring whose force has come down to nothing stays there.
+pub(super) struct CableSlack;
+
+impl Law for CableSlack {
+    const ABOUT: About = About {
+        name: "cable_slack",
+        physics: "A cable cannot push: a spring whose force has come down to nothing stays there.",
+        channel: Channel::Loads,
+        keys: &[Key::positive("amount", Measure::One, 1.5)],
+        probes: About::no_shape,
+        applies: has_springs,
+        confused: &["cubic_spring"],
+        separated_by: "load cells",
+        test: 0.1,
+    };
+
+    fn load<D: Real>(p: &[D], _: &Load, force: D) -> D {
+        if force.re() < 0.0 { force - force * p[0] } else { force }
+    }
+}

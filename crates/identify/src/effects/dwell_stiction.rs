@@ -1,0 +1,35 @@
+//! `dwell_stiction`: The longer a contact rests, the more it takes to break it away.
+
+use super::{About, Act, At, Channel, Key, Law, Measure, family::{rubs}};
+use crate::march::Real;
+
+/// The longer a contact rests, the more it takes to break it away.
+pub(super) struct DwellStiction;
+
+impl Law for DwellStiction {
+    const ABOUT: About = About {
+        name: "dwell_stiction",
+        physics: "The longer a contact rests, the more it takes to break it away.",
+        channel: Channel::Torque,
+        keys: &[Key::positive("drop", Measure::Force, 3.0), Key::fitted("tau", Measure::Time)],
+        probes: |_| vec![vec![0.1], vec![0.5], vec![2.0]],
+        applies: rubs,
+        confused: &["stribeck", "maxwell_slip"],
+        separated_by: "rests of several lengths before the same break-away",
+        test: 0.1,
+    };
+    const STATES: usize = 1;
+
+    fn act<D: Real>(p: &[D], at: &At<D>, base: &[D], z: &mut [D]) -> Act<D> {
+        // The age is forgotten as the contact slips; what its bristles follow is no slip.
+        let speed = if at.v.re() < 0.0 { -at.v } else { at.v };
+        let aged = p[1].recip() * at.dt;
+        let worn = speed * at.held * at.dt / at.grain;
+        z[0] = (base[0] + aged) / (aged + worn + 1.0);
+        Act::rise(p[0] * z[0])
+    }
+
+    fn start<D: Real>(_: &[D], way: f64, _: &[f64]) -> D {
+        D::from(if way == 0.0 { 0.5 } else { 0.0 })
+    }
+}

@@ -1,0 +1,25 @@
+//! `friction_drift`: Friction changes with time, as when it warms up.
+
+use super::{About, Act, At, Channel, Key, Law, Measure, family::{rubs}};
+use crate::march::Real;
+
+/// Friction changes with time, as when it warms up.
+pub(super) struct FrictionDrift;
+
+impl Law for FrictionDrift {
+    const ABOUT: About = About {
+        name: "friction_drift",
+        physics: "Friction changes with time, as when it warms up.",
+        channel: Channel::Torque,
+        keys: &[Key::amount("amount", Measure::One, 0.9), Key::fitted("tau", Measure::Time)],
+        probes: |c| vec![vec![0.1 * c.duration], vec![0.4 * c.duration], vec![4.0 * c.duration]],
+        applies: rubs,
+        confused: &["torque_saturation"],
+        separated_by: "a longer record, or the same drive again",
+        test: 0.1,
+    };
+
+    fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
+        Act::more(p[0] * (-(-p[1].recip() * at.t).exp() + 1.0))
+    }
+}

@@ -1,0 +1,25 @@
+//! `gravity_unbalance`: A weight out of the middle pulls once a turn.
+
+use super::{About, Act, At, Channel, Key, Law, Measure};
+use crate::march::Real;
+
+/// A weight out of the middle pulls once a turn.
+pub(super) struct GravityUnbalance;
+
+impl Law for GravityUnbalance {
+    const ABOUT: About = About {
+        name: "gravity_unbalance",
+        physics: "A weight out of the middle pulls once a turn.",
+        channel: Channel::Torque,
+        keys: &[Key::amount("sine", Measure::Force, 5.0), Key::amount("cosine", Measure::Force, 5.0)],
+        probes: About::no_shape,
+        applies: |rig| rig.kind == "drum",
+        confused: &["cubic_spring", "current_bias", "cogging"],
+        separated_by: "load cells, or a whole turn",
+        test: 0.1,
+    };
+
+    fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
+        Act::force(p[0] * at.q.sin() + p[1] * at.q.cos())
+    }
+}

@@ -1,0 +1,167 @@
+//! Where an effect takes hold.
+
+use super::{About, Kind};
+use crate::march::Real;
+
+/// An instant of a motion, as a law sees it.
+#[derive(Debug, Clone, Copy)]
+pub struct At<D> {
+    /// Time since the record began [s].
+    pub t: f64,
+    /// The stage's own share of a step [s].
+    pub dt: f64,
+    /// What drives the plant [N].
+    pub drive: D,
+    /// Displacement [m].
+    pub q: D,
+    /// Velocity [m/s].
+    pub v: D,
+    /// Radius of a drum [m], 1 for others.
+    pub radius: f64,
+    /// The Coulomb force of the nominal friction [N], 0 if it has none.
+    pub f_c: D,
+    /// The shortest deflection at which the contact slips [m].
+    pub grain: f64,
+    /// What share of its level the contact held before the stage [1]: so much of the motion is slip.
+    pub held: D,
+}
+
+/// What an effect adds to the friction F of the model.
+#[derive(Debug, Clone, Copy)]
+pub struct Act<D> {
+    /// A force beside it [N], smooth in the velocity.
+    pub force: D,
+    /// F grows by this share of itself [1].
+    pub more: D,
+    /// F grows by this share of itself where it is positive, and falls where it is negative [1].
+    pub skew: D,
+    /// The level at which the contact slips is higher by so much [N]: bristles slip at a larger deflection, what has
+    /// none grows as a whole.
+    pub rise: D,
+    /// A force against the motion that holds at rest [N].
+    pub dry: D,
+}
+
+impl<D: Real> Act<D> {
+    /// None at all.
+    pub fn none() -> Self {
+        let zero = D::from(0.0);
+        Self { force: zero, more: zero, skew: zero, rise: zero, dry: zero }
+    }
+
+    /// A force beside the friction.
+    pub fn force(force: D) -> Self {
+        Self { force, ..Self::none() }
+    }
+
+    /// By how much the level is higher [N].
+    pub fn rise(rise: D) -> Self {
+        Self { rise, ..Self::none() }
+    }
+
+    /// Where no bristle has taken the rise of the level, all of the friction of level `f_c` grows by it.
+    pub(crate) fn risen(&mut self, f_c: D, bristles: bool) {
+        if !bristles && f_c.re() > 0.0 {
+            self.more += self.rise / f_c;
+        }
+    }
+
+    /// A share by which the friction grows.
+    pub fn more(more: D) -> Self {
+        Self { more, ..Self::none() }
+    }
+}
+
+/// What the sensors show at a sample.
+#[derive(Debug)]
+pub struct Sense<'a, D> {
+    /// Displacement [m].
+    pub q: D,
+    /// Velocity [m/s].
+    pub v: D,
+    /// How far the displacement has come since the sample before [m].
+    pub moved: D,
+    /// How fast the drive changes [N/s].
+    pub rate: f64,
+    /// Time since the sample before [s]; 0 at the first.
+    pub dt: f64,
+    /// What the effect remembers from sample to sample.
+    pub memory: &'a mut D,
+}
+
+/// A load cell at a sample.
+#[derive(Debug, Clone, Copy)]
+pub struct Load {
+    /// 0 for the first, 1 for the second.
+    pub cell: usize,
+    /// Time since the record began [s].
+    pub t: f64,
+    /// How far the drum has drawn at this spring [m].
+    pub stretch: f64,
+    /// Radius of the drum [m].
+    pub radius: f64,
+}
+
+/// An effect: what it says of itself, and where it takes hold. All but the first have a neutral default.
+pub trait Law {
+    /// What it says of itself.
+    const ABOUT: About;
+    /// How many states it has beside the contact's.
+    const STATES: usize = 0;
+    /// Whether it is friction that can hold whatever the velocity does next.
+    const DRY: bool = false;
+
+    /// The input as it truly is where `u` was recorded.
+    fn input<D: Real>(_p: &[D], u: D) -> D {
+        u
+    }
+
+    /// By how much the input comes late [s].
+    fn delay<D: Real>(_p: &[D]) -> Option<D> {
+        None
+    }
+
+    /// The drive [N] as it truly is where the plant's equation says `force`.
+    fn drive<D: Real>(_p: &[D], force: D) -> D {
+        force
+    }
+
+    /// The mass [kg].
+    fn mass<D: Real>(_p: &[D], mass: D) -> D {
+        mass
+    }
+
+    /// What it adds to the friction; its states after a stage that began with `base` go to `z`.
+    fn act<D: Real>(_p: &[D], _at: &At<D>, _base: &[D], _z: &mut [D]) -> Act<D> {
+        Act::none()
+    }
+
+    /// Its states after long sliding in the direction `way`, or at rest if that is 0.
+    fn start<D: Real>(_p: &[D], _way: f64, _path: &[f64]) -> D {
+        D::from(0.0)
+    }
+
+    /// What the sensors show.
+    fn sense<D: Real>(_p: &[D], _sense: &mut Sense<'_, D>) {}
+
+    /// What a load cell shows [N] where the nominal spring pulls with `force`.
+    fn load<D: Real>(_p: &[D], _load: &Load, force: D) -> D {
+        force
+    }
+}
+
+/// An effect with its values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Term<D> {
+    /// Which one.
+    pub kind: Kind,
+    /// Its values, in the order of its keys.
+    pub p: Vec<D>,
+}
+
+impl<D: Real> Term<D> {
+    /// The same in another kind of number.
+    pub fn map<E: Real>(&self, to: &dyn Fn(D) -> E) -> Term<E> {
+        Term { kind: self.kind, p: self.p.iter().map(|p| to(*p)).collect() }
+    }
+}

@@ -1,0 +1,26 @@
+//! `position_friction`: Friction differs from place to place.
+
+use super::{About, Act, At, Channel, Key, Law, Measure, family::{rubs}};
+use crate::march::Real;
+
+/// Friction differs from place to place.
+pub(super) struct PositionFriction;
+
+impl Law for PositionFriction {
+    const ABOUT: About = About {
+        name: "position_friction",
+        physics: "Friction differs from place to place.",
+        channel: Channel::Torque,
+        keys: &[Key::amount("sine", Measure::One, 0.9), Key::amount("cosine", Measure::One, 0.9), Key::fitted("wavenumber", Measure::Wavenumber)],
+        probes: |c| super::wavenumbers(c, 6),
+        applies: rubs,
+        confused: &["load_friction", "friction_drift"],
+        separated_by: "the same stretch travelled under another load",
+        test: 0.1,
+    };
+
+    fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
+        let turned = p[2] * at.q;
+        Act::more(p[0] * turned.sin() + p[1] * turned.cos())
+    }
+}

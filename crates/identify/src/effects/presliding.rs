@@ -1,0 +1,22 @@
+//! `presliding`: Before it slides a contact gives way like a spring, and dissipates.
+
+use super::{About, Channel, Key, Law, Measure, family::{value}};
+
+/// Before it slides a contact gives way like a spring, and dissipates.
+pub(super) struct Presliding;
+
+impl Law for Presliding {
+    const ABOUT: About = About {
+        name: "presliding",
+        physics: "Before it slides a contact gives way like a spring, and dissipates.",
+        channel: Channel::Torque,
+        keys: &[Key::fitted("sigma", Measure::Stiffness)],
+        probes: |c| [1e4, 1e3, 100.0].iter().map(|s| vec![s * c.force / c.span]).collect(),
+        applies: |rig| (rig.friction.name == "coulomb" || rig.friction.name == "none") && value(rig, "f_c") > 0.0,
+        confused: &["maxwell_slip", "backlash"],
+        separated_by: "small reversals, smaller than the presliding distance",
+        test: 0.1,
+    };
+
+    // Binding makes the rig's Coulomb friction a Dahl model of this stiffness.
+}

@@ -1,0 +1,37 @@
+//! `torque_saturation`: The drive gives less than it should when it is to give much.
+
+use super::{About, Channel, Key, Law, Measure, family::{driven}};
+use crate::march::Real;
+
+/// So many widths beyond the knee the bend is over to the last digit.
+const FAR: f64 = 36.0;
+
+/// The drive gives less than it should when it is to give much.
+pub(super) struct TorqueSaturation;
+
+impl Law for TorqueSaturation {
+    const ABOUT: About = About {
+        name: "torque_saturation",
+        physics: "The drive gives less than it should when it is to give much: from the knee on, over the width of a bend.",
+        channel: Channel::Torque,
+        keys: &[
+            Key::positive("loss", Measure::One, 1.2),
+            Key::fitted("knee", Measure::Force),
+            Key::fitted("width", Measure::Force),
+        ],
+        probes: |c| [0.5, 0.65, 0.8, 0.9].map(|s| vec![s * c.drive, 0.05 * c.drive]).to_vec(),
+        applies: driven,
+        confused: &["quadratic_drag", "friction_drift", "load_friction"],
+        separated_by: "two amplitudes of the drive",
+        test: 0.1,
+    };
+
+    fn drive<D: Real>(p: &[D], force: D) -> D {
+        // What is beyond the knee, and a little of what is before: an amplifier bends, it has no corner.
+        let size = if force.re() < 0.0 { -force } else { force };
+        let over = (size - p[1]) / p[2];
+        let beyond = if over.re() > FAR { over } else { (over.exp() + 1.0).ln() } * p[2];
+        let beyond = if force.re() < 0.0 { -beyond } else { beyond };
+        force - beyond * p[0]
+    }
+}
