@@ -58,7 +58,7 @@ fn check_entities(path: &str, text: &str) {
 fn every_kind_of_figure_is_drawn_well_formed_and_small() {
     let outputs = all();
     let figures: Vec<_> = outputs.iter().filter(|output| ending(output) == "svg").collect();
-    assert_eq!(figures.len(), 14);
+    assert_eq!(figures.len(), 16);
     for figure in figures {
         let svg = text(figure);
         check_xml(&figure.path, svg);
