@@ -188,7 +188,7 @@ impl Walk<'_> {
         (0..self.board.trains.len()).filter(|k| !self.board.trains[*k])
     }
 
-    /// Where the refitted nominal model's excess is, by thirds of the record and by the state of the motion.
+    /// Where the refitted nominal model's excess is, by thirds of the record.
     fn shares(&self, refit: &Fitted) -> Vec<Share> {
         let excess: Vec<f64> = refit
             .blocks
