@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Project, difference, run::named};
+use common::{Project, run::named};
 use record::{ModelRow, ParameterRow, Summary};
 use std::{fs, path::Path, sync::OnceLock};
 
@@ -110,20 +110,7 @@ models = false
 
 #[test]
 fn a_fit_is_the_same_on_one_and_on_eight_threads_and_from_its_record() {
-    let project = small();
-    let run = |more: &[&str]| {
-        let ran = project.run(&[&["reproduce", "--quick", "--explain"], more].concat());
-        assert_eq!(ran.code, Some(0), "{ran:?}");
-        (project.files("target/duhem/quick"), ran.err)
-    };
-    let (one, _) = run(&["--threads", "1"]);
-    assert!(one.keys().any(|path| path.ends_with("parameters.csv")), "{:?}", one.keys());
-    let (eight, said) = run(&["--threads", "8", "--fresh"]);
-    assert!(said.contains("fit rig: ran"), "{said}");
-    assert_eq!(difference(&one, &eight), None, "8 threads");
-    let (again, said) = run(&[]);
-    assert!(said.contains("fit rig: reused"), "{said}");
-    assert_eq!(difference(&one, &again), None, "from its record");
+    small().same_on_threads_and_from_record("fit rig", "parameters.csv");
 }
 
 #[test]

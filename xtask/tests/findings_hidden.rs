@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Project, difference};
+use common::Project;
 use std::{fs, path::Path};
 
 /// A project with one search in a small record of this repository.
@@ -40,20 +40,7 @@ caption     = "The ladder."
 
 #[test]
 fn a_search_is_the_same_on_one_and_on_eight_threads_and_from_its_record() {
-    let project = small();
-    let run = |more: &[&str]| {
-        let ran = project.run(&[&["reproduce", "--quick", "--explain"], more].concat());
-        assert_eq!(ran.code, Some(0), "{ran:?}");
-        (project.files("target/duhem/quick"), ran.err)
-    };
-    let (one, _) = run(&["--threads", "1"]);
-    assert!(one.keys().any(|path| path.ends_with("gaps.csv")), "{:?}", one.keys());
-    let (eight, said) = run(&["--threads", "8", "--fresh"]);
-    assert!(said.contains("search hidden: ran"), "{said}");
-    assert_eq!(difference(&one, &eight), None, "8 threads");
-    let (again, said) = run(&[]);
-    assert!(said.contains("search hidden: reused"), "{said}");
-    assert_eq!(difference(&one, &again), None, "from its record");
+    small().same_on_threads_and_from_record("search hidden", "gaps.csv");
 }
 
 #[test]

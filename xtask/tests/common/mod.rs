@@ -68,6 +68,24 @@ impl Project {
         self.folder.path()
     }
 
+    /// `what` is computed on one thread and again on eight, and then taken from its record: the files are the same,
+    /// and one that ends in `table` is among them.
+    pub(crate) fn same_on_threads_and_from_record(&self, what: &str, table: &str) {
+        let run = |more: &[&str]| {
+            let ran = self.run(&[&["reproduce", "--quick", "--explain"], more].concat());
+            assert_eq!(ran.code, Some(0), "{ran:?}");
+            (self.files("target/duhem/quick"), ran.err)
+        };
+        let (one, _) = run(&["--threads", "1"]);
+        assert!(one.keys().any(|path| path.ends_with(table)), "{:?}", one.keys());
+        let (eight, said) = run(&["--threads", "8", "--fresh"]);
+        assert!(said.contains(&format!("{what}: ran")), "{said}");
+        assert_eq!(difference(&one, &eight), None, "8 threads");
+        let (again, said) = run(&[]);
+        assert!(said.contains(&format!("{what}: reused")), "{said}");
+        assert_eq!(difference(&one, &again), None, "from its record");
+    }
+
     /// The program, set up for this project, from a folder that is not the project's.
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
