@@ -3,6 +3,7 @@
 use duhem::{Input, MODELS, Parameters, Plant, Rig};
 use identify::{
     Hold,
+    fit::binding,
     march::{Balance, Contact, Drive, Model, Motion, Start, Tolerance, march},
 };
 use integrate::{Limits, Outcome};
@@ -115,4 +116,43 @@ fn a_mass_with_coulomb_friction_loses_two_f_c_over_k_each_half_swing_and_stops()
         }
     }
     assert_eq!(motion.v.last(), Some(&0.0), "it sticks exactly");
+}
+
+#[test]
+fn a_held_force_that_comes_late_moves_a_mass_as_its_own_steps_do() {
+    let text = |delay: f64| {
+        format!(
+            "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 1e-9\n[friction]\n\
+             name = \"none\"\nsigma_2 = 0.0\n[[effect]]\nname = \"input_delay\"\ndelay = {delay}\n[channels]\n\
+             time = \"t\"\nforce = \"f\"\nposition = \"x\"\n"
+        )
+    };
+    let time = times(40, 100.0);
+    let values: Vec<f64> = (0..time.len()).map(|i| [3.0, -1.0, 0.5, 2.0, -4.0][i % 5]).collect();
+    for (delay, back) in [(0.0037, 0), (0.0237, 2)] {
+        let rig = identify::Rig::parse(&text(delay)).expect("a rig");
+        let model = binding::model::<f64>(&rig, &|_| None);
+        let drive = Drive::Recorded { values: &values, hold: Hold::ZeroOrder };
+        let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.contact.states()] };
+        let tolerance = Tolerance { q: 1e-9, v: 1e-9, z: 1e-9, steps: 100_000 };
+        let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
+        // Until the edge the last value acts, from there on the next.
+        let (mut q, mut v) = (0.0, 0.0);
+        let mut slide = |force: f64, dt: f64| {
+            q += dt * (v + 0.25 * force * dt);
+            v += 0.5 * force * dt;
+            (q, v)
+        };
+        for i in 0..40 {
+            let at = |late: usize| values[usize::saturating_sub(i, late)];
+            slide(at(back + 1), 0.0037);
+            let (q, v) = slide(at(back), 0.0063);
+            let (found_q, found_v) = (motion.q[i + 1], motion.v[i + 1]);
+            assert!(
+                (found_v - v).abs() < 1e-7,
+                "{delay} s late, sample {i}: {found_v} for {v} m/s"
+            );
+            assert!((found_q - q).abs() < 1e-7, "{delay} s late, sample {i}: {found_q} for {q} m");
+        }
+    }
 }

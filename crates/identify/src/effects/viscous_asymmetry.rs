@@ -11,7 +11,7 @@ impl Law for ViscousAsymmetry {
         name: "viscous_asymmetry",
         physics: "Drag is stronger in one direction than in the other.",
         channel: Channel::Torque,
-        keys: &[Key::amount("c", Measure::Damping, 2.0)],
+        keys: &[Key::amount("c", Measure::Damping, 5.0)],
         probes: About::no_shape,
         applies: |_| true,
         confused: &["coulomb_asymmetry", "current_bias"],

@@ -42,7 +42,7 @@ impl Lead {
 
 impl Piece {
     /// The sum of its squared residuals [1].
-    pub(super) fn misfit(&self) -> f64 {
+    pub fn misfit(&self) -> f64 {
         self.residuals.iter().map(|r| r * r).sum()
     }
 }

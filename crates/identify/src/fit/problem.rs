@@ -169,7 +169,7 @@ impl Problem<'_> {
             return Piece { start, motion, residuals };
         }
         let state = self.state(&model, window, start);
-        let spans = self.spans(self.tolerance);
+        let spans = self.spans(window, self.tolerance);
         let motion = march(&model, &self.drive(window), &self.data.time[range], &state, &spans);
         let motion = motion.unwrap_or_default();
         for i in 0..window.len() {
@@ -220,14 +220,14 @@ impl Problem<'_> {
         self.spread.get(i).map_or(own, |more| own.hypot(more[0]))
     }
 
-    /// What a step may be wrong by.
-    fn spans(&self, tolerance: f64) -> Tolerance {
+    /// What a step may be wrong by, and how many a window may take.
+    fn spans(&self, window: &Window, tolerance: f64) -> Tolerance {
         let q = self.data.displacement.as_ref().map_or(1.0, |d| d.span.max(d.noise));
         let v = self.data.speed().max(1e-12);
         // A step of order 3 gets shorter with the cube root of what it may be wrong by.
         let finer = (1e-5 / tolerance).cbrt().max(1.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within usize")]
-        let steps = (finer * (8 * self.data.time.len() + 10_000) as f64) as usize;
+        let steps = (finer * (8 * window.len() + 10_000) as f64) as usize;
         Tolerance { q: tolerance * q, v: tolerance * v, z: tolerance, steps }
     }
 
@@ -325,7 +325,7 @@ impl Problem<'_> {
         if self.slopes > self.tolerance {
             let model = self.model(x);
             let state = self.state(&model, window, piece.start);
-            let spans = self.spans(self.slopes);
+            let spans = self.spans(window, self.slopes);
             let drive = self.drive(window);
             longer = march(&model, &drive, &self.data.time[range.clone()], &state, &spans);
             tape = longer.as_ref().map_or(tape, |motion| &motion.tape);

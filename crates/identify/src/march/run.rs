@@ -132,7 +132,7 @@ pub(super) fn inputs<D: super::Real>(
 }
 
 /// The recorded input of a time `delay` [s] ago, at both ends of the interval that begins with sample `i`. One that
-/// is held is taken as its mean over the interval.
+/// is held steps within the interval: what it does to a mass until the next sample is that of a line.
 fn late<D: super::Real>(
     values: &[f64],
     hold: Hold,
@@ -153,7 +153,12 @@ fn late<D: super::Real>(
     };
     match hold {
         Hold::Linear => [between(i), between(next)],
-        Hold::ZeroOrder => [between(i); 2],
+        Hold::ZeroOrder => {
+            // The step within the interval, as the line that has its mean and its first moment.
+            let step = at(i) - D::from(values[i.saturating_sub(back + 1)]);
+            let half = step * part * (D::one() - part) * 3.0;
+            [between(i) - half, between(i) + half]
+        }
     }
 }
 
