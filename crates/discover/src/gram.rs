@@ -1,6 +1,6 @@
 //! The derivatives of all residuals by what is free and by what may be missing, as one Gram matrix a block.
 
-use crate::board::{Board, Fitted};
+use crate::board::{Board, Fitted, SOFT};
 use identify::{
     Effect, Rig,
     effects::{Context, Kind, LAWS, Shape},
@@ -155,11 +155,17 @@ impl Gram {
         Ok(Self { nominal, names, prior, residuals: count, probes, blocks })
     }
 
-    /// The same, the nominal columns held near their values as much as the misfit asks for.
-    pub(crate) fn held(&self, take: impl Fn(usize) -> bool) -> DMatrix<f64> {
-        let mut sum = self.sum(take);
-        let last = sum.nrows() - 1;
-        let variance = (sum[(last, last)] / self.residuals).max(1.0);
+    /// The same, the nominal columns held near their values as much as the misfit asks for. Where the model is near, every
+    /// block is worth its logarithm, so that one that went astray does not decide over all others.
+    pub(crate) fn held(&self, near: bool, take: impl Fn(usize) -> bool) -> DMatrix<f64> {
+        let n = self.blocks.first().map_or(0, DMatrix::nrows);
+        let count = self.residuals / self.blocks.len().max(1) as f64;
+        let taken = self.blocks.iter().enumerate().filter(|(k, _)| take(*k));
+        let mut sum = taken.fold(DMatrix::zeros(n, n), |sum, (_, block)| {
+            let mean = block[(n - 1, n - 1)] / count;
+            sum + block / if near && mean > SOFT { mean } else { 1.0 }
+        });
+        let variance = (sum[(n - 1, n - 1)] / self.residuals).max(1.0);
         for (i, prior) in self.prior.iter().enumerate() {
             sum[(i, i)] += prior * variance;
         }

@@ -57,14 +57,19 @@ fn with(fitted: &Fitted, scored: &Scored) -> Rig {
     rig
 }
 
-/// Refits the model with an effect from values that are far from the truth, by way of `short` windows.
+/// Refits the model with an effect on `short` windows, from values that are far from the truth: it, and how far off it
+/// is on them.
 pub(crate) fn afresh(
-    board: &Board<'_>,
     short: &Board<'_>,
-    (fitted, scored): (&Fitted, &Scored),
-) -> Result<Candidate, FitError> {
-    let rig = with(fitted, scored);
-    Ok(Candidate { kind: scored.kind, fitted: board.refit(&rig, Some(short), &AFRESH)? })
+    fitted: &Fitted,
+    scored: &Scored,
+) -> Result<(Rig, f64), FitError> {
+    short.sketch(&with(fitted, scored), &AFRESH)
+}
+
+/// Goes on with it on long windows.
+pub(crate) fn lengthened(board: &Board<'_>, kind: Kind, rig: &Rig) -> Result<Candidate, FitError> {
+    Ok(Candidate { kind, fitted: board.fit(rig, None, &AFRESH)? })
 }
 
 /// Refits the model with an effect, begun at what its score says, as far as a glance goes.
@@ -95,12 +100,15 @@ fn begin(problem: &Problem<'_>, fitted: &Fitted, scored: &Scored) -> Vec<f64> {
 /// What a parameter may change by, in its logarithm, when an effect that it had taken up is given its own name.
 const FAR: f64 = 3.0;
 
-/// Whether every value has a plausible sign and size, and no nominal parameter went to an absurd one.
-pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, refitted: &Rig) -> bool {
+/// Whether every value has a plausible sign and size, and no nominal parameter went to one that is absurd beside those
+/// of all `others`.
+pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig]) -> bool {
     let about = kind.about();
+    // No effect is stronger than what drives the plant; its friction may be weak.
+    let driven = Context { force: context.drive, ..*context };
     let own = about.keys.iter().all(|key| {
         let value = rig.value(&format!("{}.{}", about.name, key.name)).unwrap_or(0.0);
-        let size = context.size(key.measure);
+        let size = context.size(key.measure).max(driven.size(key.measure));
         let sign = match key.sign {
             Sign::Any => true,
             Sign::Positive => value >= 0.0,
@@ -108,16 +116,14 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, refitted: &Rig
         };
         sign && value.is_finite() && (key.shape != Shape::Amount || value.abs() <= key.most * size)
     });
-    let kept = refitted.free.iter().filter(|name| !name.contains('.')).all(|name| {
-        match (rig.value(name), refitted.value(name)) {
-            (Some(now), Some(then))
-                if then > 0.0 && now > 0.0 && name != "v_s" && name != "f_s" =>
-            {
-                (now / then).ln().abs() < FAR
-            }
-            _ => true,
+    let near = |name: &str, other: &Rig| match (rig.value(name), other.value(name)) {
+        (Some(now), Some(then)) if then > 0.0 && now > 0.0 && name != "v_s" && name != "f_s" => {
+            (now / then).ln().abs() < FAR
         }
-    });
+        _ => true,
+    };
+    let nominal = rig.free.iter().filter(|name| !name.contains('.'));
+    let kept = nominal.into_iter().all(|name| others.iter().any(|other| near(name, other)));
     own && kept
 }
 

@@ -70,7 +70,7 @@ fn left(gram: &DMatrix<f64>, places: &[usize], by: &DVector<f64>) -> f64 {
 /// All amounts of the only probe together: what they are in their sizes, by how much the sum of squares falls on the
 /// training blocks, and what is left in every block. A little is asked of them to be small, for some are seen nowhere.
 pub(crate) fn joint(gram: &Gram, trains: &[bool]) -> (Vec<f64>, f64, Vec<f64>) {
-    let mut train = gram.held(|k| trains[k]);
+    let mut train = gram.held(true, |k| trains[k]);
     let own: Vec<usize> = (0..gram.nominal).collect();
     let without = left(&train, &own, &best(&train, &own));
     let plain = train.clone();
@@ -85,9 +85,10 @@ pub(crate) fn joint(gram: &Gram, trains: &[bool]) -> (Vec<f64>, f64, Vec<f64>) {
     (by.iter().skip(gram.nominal).copied().collect(), gain, blocks)
 }
 
-/// The effects that would explain something, the best first, each at its best probe.
-pub(crate) fn scores(gram: &Gram, trains: &[bool]) -> Vec<Scored> {
-    let train = gram.held(|k| trains[k]);
+/// The effects that would explain something, the best first, each at its best probe; `near` says that the model is
+/// not far from the truth.
+pub(crate) fn scores(gram: &Gram, near: bool, trains: &[bool]) -> Vec<Scored> {
+    let train = gram.held(near, |k| trains[k]);
     let own: Vec<usize> = (0..gram.nominal).collect();
     let without = left(&train, &own, &best(&train, &own));
     let mut all: Vec<Scored> =

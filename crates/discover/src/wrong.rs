@@ -50,6 +50,16 @@ pub(crate) fn wrong(minimum: &Minimum<'_>, rig: &Rig) -> Vec<usize> {
     loose
 }
 
+/// How far the damping by a motor's back-EMF, K_t²/R, may be off because its constants are, each by [`OFF`]: as a root
+/// mean square and at most. It cannot be told from viscous friction.
+pub(crate) fn drag(rig: &Rig, name: &str) -> [f64; 2] {
+    if name != "sigma_2" {
+        return [0.0; 2];
+    }
+    let damping = identify::fit::binding::model::<f64>(rig, &|_| None).balance.damping;
+    [5.0_f64.sqrt() * OFF * damping, 3.0 * OFF * damping]
+}
+
 /// Where the variable of parameter `i` is at its given value, and the inverse square of how far it may be off; none
 /// if nothing is known of it beforehand.
 fn near(minimum: &Minimum<'_>, rig: &Rig, i: usize) -> Option<(f64, f64)> {
@@ -58,7 +68,7 @@ fn near(minimum: &Minimum<'_>, rig: &Rig, i: usize) -> Option<(f64, f64)> {
     let (at, spread) = match free.scale {
         Scale::Linear(size) if free.name.starts_with("f_") => (given / size, OFF * given / size),
         Scale::Linear(_) => return None,
-        Scale::Logarithm(_) => (free.variable(given), OFF),
+        Scale::Logarithm(_) => (free.variable(given), OFF.hypot(drag(rig, &free.name)[0] / given)),
         Scale::InverseSquare(_) => {
             let at = free.variable(given);
             (at, 2.0 * OFF * at)
@@ -91,4 +101,23 @@ fn cost(minimum: &Minimum<'_>, nominal: &[Option<(f64, f64)>], loose: &[usize]) 
     let moved = solved.component_mul(&scale);
     let pulled: f64 = (0..n).map(|i| weight[i] * (moved[i] - away[i]).powi(2)).sum();
     (moved.transpose() * &minimum.curvature * &moved)[(0, 0)] + pulled
+}
+
+#[cfg(test)]
+mod tests {
+    use super::drag;
+    use identify::Rig;
+
+    #[test]
+    fn viscous_friction_is_no_better_known_than_the_motors_damping() {
+        let text = "title = \"a\"\n[plant]\nkind = \"pendulum\"\ninertia = 0.01\nmass = 0.3\nlength = 0.2\n\
+                    torque_constant = 0.2\nresistance = 2.0\n[friction]\nname = \"coulomb\"\nf_c = 0.03\n\
+                    sigma_2 = 0.004\n[channels]\ntime = \"t\"\nvoltage = \"u\"\nangle = \"q\"\n";
+        let rig = Rig::parse(text).unwrap();
+        // 0.2²/2 N·m·s/rad: both constants 2 % off, twice and once.
+        let [rms, most] = drag(&rig, "sigma_2");
+        assert!((rms / (0.02 * 0.02 * 5.0_f64.sqrt()) - 1.0).abs() < 1e-12, "{rms}");
+        assert!((most / (0.02 * 0.06) - 1.0).abs() < 1e-12, "{most}");
+        assert_eq!(drag(&rig, "f_c"), [0.0; 2]);
+    }
 }

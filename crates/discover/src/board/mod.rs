@@ -65,7 +65,7 @@ impl Fitted {
 }
 
 /// Mean squared residual from which on a window is softened.
-const SOFT: f64 = 4.0;
+pub(crate) const SOFT: f64 = 4.0;
 
 /// The same for the motion along which derivatives are taken.
 const SLOPES: f64 = 1e-4;
@@ -103,6 +103,15 @@ fn noises(data: &Data, least: Weights) -> Weights {
 /// The length of a block [s], and at least so many, however short the record.
 const BLOCK: f64 = 1.5;
 const LEAST: f64 = 32.0;
+
+/// `rig` with the values of the variables `x`.
+fn with_values(rig: &Rig, problem: &Problem<'_>, x: &[f64]) -> Rig {
+    let mut rig = rig.clone();
+    for (i, free) in problem.free.iter().enumerate() {
+        identify::fit::binding::set(&mut rig, &free.name, problem.value(i, x));
+    }
+    rig
+}
 
 impl<'a> Board<'a> {
     /// The blocks of `data` with so many windows each, weighed by the noise of its channels.
@@ -218,10 +227,7 @@ impl<'a> Board<'a> {
             all.map(|(_, p)| p.clone()).collect()
         });
         let found = descend(&problem, (&x, trained.as_deref()), patience);
-        let mut rig = rig.clone();
-        for (i, free) in problem.free.iter().enumerate() {
-            identify::fit::binding::set(&mut rig, &free.name, problem.value(i, &found.x));
-        }
+        let rig = with_values(rig, &problem, &found.x);
         let mut found = found.pieces.into_iter();
         let all: Option<Vec<Piece>> = from.and_then(|(_, pieces)| {
             let own =
@@ -239,8 +245,17 @@ impl<'a> Board<'a> {
         patience: &Patience,
     ) -> Result<Fitted, FitError> {
         let Some(short) = short else { return self.fit(rig, None, patience) };
-        let first = short.fit(rig, None, patience)?;
-        self.fit(&first.rig, None, patience)
+        let (near, _) = short.sketch(rig, patience)?;
+        self.fit(&near, None, patience)
+    }
+
+    /// Fits `rig` on the training blocks from its own values, and looks no further: it, and the logarithms of the sums
+    /// of squares of its windows.
+    pub(crate) fn sketch(&self, rig: &Rig, patience: &Patience) -> Result<(Rig, f64), FitError> {
+        let problem = self.problem(rig, |k| self.trains[k])?;
+        let found = descend(&problem, (&starts::nominal(&problem), None), patience);
+        let logarithm = |piece: &Piece| piece.misfit().max(f64::MIN_POSITIVE).ln();
+        Ok((with_values(rig, &problem, &found.x), found.pieces.iter().map(logarithm).sum()))
     }
 
     /// The spread with what a model still leaves of each window: one that is far off, for whatever reason, must not

@@ -7,8 +7,8 @@ use crate::{
     gram::Gram,
     maps::{self, Map},
     screen,
-    verdict::{Discovery, Found, Gap, Limit, MapOf, Moved, Share, Value, Verdict, name},
-    wrong::{Minimum, wrong},
+    verdict::{Discovery, Found, Gap, Limit, MapOf, Moved, Value, Verdict, name},
+    wrong::{Minimum, drag, wrong},
 };
 use identify::{
     Rig,
@@ -26,8 +26,12 @@ const MUCH: f64 = 4.0;
 /// An effect is a part of what is missing if it takes away so much of the logarithm of the mean squared residual.
 const NAMED: f64 = 0.5;
 
-/// So far above the noise of the sensors no model of a real drive comes down to it, and half of the excess is a part.
-const NO_NOISE: f64 = 1e5;
+/// The same whatever a map says of the rest.
+const NEARLY: f64 = 0.8;
+
+/// A hundred times above the noise of the sensors no model of a real drive comes down to it, and what takes away half
+/// of the excess is a part of what is missing.
+const NO_NOISE: f64 = 1e4;
 
 /// A nominal parameter that moves further was wrong: nominal values are a little off, always.
 const WRONG: f64 = 0.08;
@@ -58,7 +62,7 @@ impl Walk<'_> {
             .map(|found| {
                 let given = rig.value(&found.name).unwrap_or(f64::NAN);
                 let own = !self.board.loose.iter().any(|(name, _)| *name == found.name);
-                let surely = own && wrong.contains(&found.name) && moved(given, found);
+                let surely = own && wrong.contains(&found.name) && moved(rig, found);
                 Moved { given, found: found.clone(), moved: surely }
             })
             .collect();
@@ -187,24 +191,6 @@ impl Walk<'_> {
     fn judging(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.board.trains.len()).filter(|k| !self.board.trains[*k])
     }
-
-    /// Where the refitted nominal model's excess is, by thirds of the record.
-    fn shares(&self, refit: &Fitted) -> Vec<Share> {
-        let excess: Vec<f64> = refit
-            .blocks
-            .iter()
-            .zip(&self.counts)
-            .map(|(block, count)| (block.iter().sum::<f64>() - count).max(0.0))
-            .collect();
-        let all: f64 = excess.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-        let n = excess.len();
-        let third = |i: usize| excess[i * n / 3..(i + 1) * n / 3].iter().sum::<f64>() / all;
-        ["first third", "second third", "last third"]
-            .into_iter()
-            .enumerate()
-            .map(|(i, part)| Share { part, share: third(i) })
-            .collect()
-    }
 }
 
 /// The unit of a channel.
@@ -220,9 +206,10 @@ fn unit_of(rig: &Rig, channel: &str) -> &'static str {
 }
 
 /// Whether a nominal value was wrong by more than nominal values are, and surely.
-fn moved(given: f64, found: &Value) -> bool {
+fn moved(rig: &Rig, found: &Value) -> bool {
+    let given = rig.value(&found.name).unwrap_or(f64::NAN);
     let away = (found.value - given).abs();
-    away > 5.0 * found.standard_error && away > WRONG * given.abs()
+    away > 5.0 * found.standard_error && away > WRONG * given.abs() + drag(rig, &found.name)[1]
 }
 
 fn verdict(
@@ -248,6 +235,7 @@ fn verdict(
     // What takes away a part of something else is not its name.
     let named = (refit / last).ln() / refit.ln();
     let first = effects.first().map_or(0.0, |effect| effect.shrink);
-    let part = named > NAMED || (last > NO_NOISE && first > MOST);
-    if part && mapped < first.max(MOST) { Verdict::Partial } else { Verdict::NotInLibrary }
+    let real = last > NO_NOISE && first > MOST;
+    let part = named > NEARLY || (named > NAMED && mapped < MOST);
+    if part || real { Verdict::Partial } else { Verdict::NotInLibrary }
 }

@@ -1,13 +1,15 @@
 //! The way from a record to an answer.
 
 mod answer;
+mod candidates;
+mod places;
 
 use crate::{
     board::{self, Board, COARSE, FINE, Fitted},
     decide::{Judged, shrink},
-    gram::{self, Gram},
+    gram::Gram,
     model::{self, Candidate},
-    screen::{self, Scored},
+    screen::Scored,
     verdict::{Discovery, Found, Options, Ranked, name},
 };
 use identify::{
@@ -15,7 +17,6 @@ use identify::{
     effects::Context,
     fit::{Data, FitError, search::Patience, starts},
 };
-use rayon::prelude::*;
 
 /// The windows of a block in a first search.
 const SHORT: usize = 4;
@@ -29,8 +30,15 @@ const FIRST: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 20 };
 /// Enough for a model that is near already.
 const POLISH: Patience = Patience { misfit: 0.5, share: 2e-5, simulations: 12 };
 
+/// So often at most, as long as the misfit falls by so much; a standard error makes 1.
+const POLISHED: usize = 6;
+const GAINED: f64 = 0.2;
+
 /// An effect is taken if it is better on the judging blocks by so many standard errors.
 const SURE: f64 = 3.0;
+
+/// The same near the floor.
+const CERTAIN: f64 = 3.5;
 
 /// Of two effects the second belongs to the set if it is worse by fewer standard errors, or by less than this
 /// share of the excess.
@@ -46,14 +54,7 @@ const MOST: f64 = 0.5;
 /// It is no name either if the mean squared residual falls by less than this, in units of the floor.
 const LEAST: f64 = 0.01;
 
-/// So many more are refitted where the model is far off.
-const BESIDE: usize = 20;
-
-/// Near the floor so few are worth a look.
-const FEW: usize = 2;
-
-/// So many candidates are followed to their ends, and those that leave no more than so many times the best.
-const FOLLOWED: usize = 3;
+/// A rival leaves no more than so many times what the best one does.
 const NEAR: f64 = 1.5;
 
 /// An effect is worth a name if it takes away so much of the excess.
@@ -62,8 +63,8 @@ const WORTH: f64 = 0.02;
 /// Mean squared residual from which on a refit of the nominal model is not trusted to be near the truth.
 const GROSS: f64 = 20.0;
 
-/// Mean squared residual, in units of the floor, up to which nothing is missing.
-const NOTHING: f64 = 1.25;
+/// Mean squared residual, in units of the floor, up to which nothing may be missing.
+const NOTHING: f64 = 1.4;
 
 /// The walk, as far as it has come.
 struct Walk<'a> {
@@ -92,8 +93,10 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
     let (mut board, mut refit) = nominal(&held, data, &loose, options.seed)?;
     // What is given and not free may be a little off; what is far off is not the refit's to mend.
     let strayed = board.strayed(&refit);
+    let mut strayed: Vec<(String, f64)> =
+        loose.iter().filter(|(name, _)| strayed.contains(name)).cloned().collect();
     if !strayed.is_empty() {
-        loose.retain(|(name, _)| !strayed.contains(name));
+        loose.retain(|own| !strayed.contains(own));
         held = board::loosened(rig, &loose);
         (board, refit) = nominal(&held, data, &loose, options.seed)?;
     }
@@ -115,6 +118,7 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         // What noise leaves is known the better the nearer the model is.
         walk.board.refloor(&walk.best, options.seed)?;
         walk.best = walk.board.again(&walk.best)?;
+        walk.reclaim(&mut strayed)?;
         effects.push(found);
     }
     walk.drop_each(&mut effects)?;
@@ -178,8 +182,7 @@ impl Walk<'_> {
         let Some(best) = candidates.iter().min_by(nearest).cloned() else { return Ok(None) };
         self.board.refine(&best.fitted, COARSE)?;
         let rated = self.rated(self.followed(candidates), context, (round, &now));
-        let Some((best, _)) = rated.first() else { return Ok(None) };
-        let Some(found) = found(&now, &rated) else { return Ok(None) };
+        let Some((best, found)) = found(&now, &rated) else { return Ok(None) };
         let from = (best.fitted.x.as_slice(), best.fitted.pieces.as_slice());
         let further = self.board.fit(&best.fitted.rig, Some(from), &REFIT)?;
         let better = self.board.trained(&further) < self.board.trained(&best.fitted);
@@ -188,88 +191,25 @@ impl Walk<'_> {
         Ok(Some(found))
     }
 
-    /// The effects worth a refit, each refitted as far as a glance goes: from where the model is and, where that is
-    /// far off, from where it was before its own refit as well.
-    fn candidates(
-        &self,
-        context: &Context,
-        options: &Options,
-        (round, start): (usize, Option<&Gram>),
-    ) -> Result<Vec<Candidate>, FitError> {
-        let now = self.judged(&self.best.blocks);
-        let far = round == 0 && now.level() > GROSS;
-        let points = if far { vec![&self.origin, &self.best] } else { vec![&self.best] };
-        let mut list: Vec<(usize, Scored)> = Vec::new();
-        for (place, point) in points.iter().enumerate() {
-            let gram = match start {
-                Some(gram) if place + 1 == points.len() => gram.clone(),
-                _ => Gram::of(&self.board, point, context)?,
-            };
-            let there = self.judged(&point.blocks);
-            let mut short = self.short_list(&gram, &there, context, options);
-            if round > 0 && now.level() < NOTHING {
-                short.truncate(FEW);
-            }
-            list.extend(short.into_iter().map(|scored| (place, scored)));
+    /// What had strayed because an effect was missing is a little loose again where it no longer strays.
+    fn reclaim(&mut self, strayed: &mut Vec<(String, f64)>) -> Result<(), FitError> {
+        if strayed.is_empty() {
+            return Ok(());
         }
-        let one = |(place, scored): &(usize, Scored)| {
-            // Far from the truth the derivatives say little of where the other parameters are.
-            if far && *place == 0 && !self.board.imposed() {
-                model::afresh(&self.board, &self.short, (points[*place], scored)).ok()
-            } else {
-                model::refit(&self.board, points[*place], scored).ok()
-            }
-        };
-        Ok(list.par_iter().filter_map(one).collect())
-    }
-
-    /// The plausible candidates, the best first, each effect once; all of them go to the ranking.
-    fn rated(
-        &mut self,
-        candidates: Vec<Candidate>,
-        context: &Context,
-        (round, now): (usize, &Judged),
-    ) -> Vec<(Candidate, Judged)> {
-        let mut rated: Vec<(Candidate, Judged, bool)> = candidates
-            .into_iter()
-            .map(|c| {
-                let judged = self.judged(&c.fitted.blocks);
-                let fits = model::plausible(&c.fitted.rig, c.kind, context, &self.best.rig);
-                (c, judged, fits)
-            })
-            .collect();
-        rated.sort_by(|a, b| a.1.level().total_cmp(&b.1.level()));
-        let mut seen = Vec::new();
-        rated.retain(|(c, _, plausible)| {
-            let first = !seen.contains(&(c.kind, *plausible));
-            seen.push((c.kind, *plausible));
-            first
-        });
-        self.ranking.extend(rated.iter().map(|(c, judged, plausible)| Ranked {
-            name: name(c.kind),
-            shrink: shrink(now.level(), judged.level()),
-            t: now.against(judged),
-            plausible: *plausible,
-            round,
-        }));
-        rated.into_iter().filter(|(.., plausible)| *plausible).map(|(c, j, _)| (c, j)).collect()
-    }
-
-    /// The candidates that may still be the best, followed to their ends.
-    fn followed(&self, candidates: Vec<Candidate>) -> Vec<Candidate> {
-        let mut rated: Vec<(f64, Candidate)> =
-            candidates.into_iter().map(|c| (self.judged(&c.fitted.blocks).level(), c)).collect();
-        rated.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let near = NEAR * rated.first().map_or(0.0, |(level, _)| *level);
-        let all: Vec<(usize, (f64, Candidate))> = rated.into_iter().enumerate().collect();
-        let one = |(place, (level, candidate)): (usize, (f64, Candidate))| {
-            if place < FOLLOWED || level < near {
-                model::follow(&self.board, candidate).ok()
-            } else {
-                Some(candidate)
-            }
-        };
-        all.into_par_iter().filter_map(one).collect()
+        let rig = board::loosened(&self.best.rig, strayed);
+        let held = self.board.loose.len();
+        self.board.loose.append(&mut strayed.clone());
+        let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
+        let fitted = self.board.fit(&rig, Some((&x, &self.best.pieces)), &REFIT)?;
+        let better = self.board.trained(&fitted) < self.board.trained(&self.best);
+        if better && self.board.strayed(&fitted).is_empty() {
+            self.best = fitted;
+            self.origin = self.best.clone();
+            strayed.clear();
+        } else {
+            self.board.loose.truncate(held);
+        }
+        Ok(())
     }
 
     /// The last model and the refitted nominal one with steps that no longer show.
@@ -278,10 +218,17 @@ impl Walk<'_> {
         self.board.refloor(&self.best, seed)?;
         self.best = self.board.again(&self.best)?;
         let refit = &self.board.again(refit)?;
-        let best =
-            self.board.fit(&self.best.rig, Some((&self.best.x, &self.best.pieces)), &POLISH)?;
-        if self.board.trained(&best) < self.board.trained(&self.best) {
-            self.best = best;
+        for _ in 0..POLISHED {
+            let from = (self.best.x.as_slice(), self.best.pieces.as_slice());
+            let next = self.board.fit(&self.best.rig, Some(from), &POLISH)?;
+            let gained = self.board.trained(&self.best) - self.board.trained(&next);
+            if gained > 0.0 {
+                self.best = next;
+            }
+            // The logarithms of the blocks fall by their shares.
+            if gained * self.counts.iter().sum::<f64>() < GAINED * self.counts.len() as f64 {
+                break;
+            }
         }
         // Without effects the two are one model: the better minimum is its.
         if self.best.rig.effects.len() == refit.rig.effects.len() {
@@ -295,69 +242,44 @@ impl Walk<'_> {
 
     /// Takes away again every effect without which a refit is as good: it had only shown the way.
     fn drop_each(&mut self, effects: &mut Vec<Found>) -> Result<(), FitError> {
-        // A single one was better than none when it was found.
-        if effects.len() < 2 {
-            return Ok(());
-        }
         for place in (0..effects.len()).rev() {
             let name = effects[place].name;
             let mut rig = self.best.rig.clone();
             rig.effects.retain(|effect| effect.name != name);
             rig.free.retain(|free| !free.starts_with(&format!("{name}.")));
             let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
-            let without = self.board.fit(&rig, Some((&x, &self.best.pieces)), &REFIT)?;
-            let (now, there) = (self.judged(&self.best.blocks), self.judged(&without.blocks));
-            if there.against(&now) < SURE && there.level() < 1.05 * now.level() {
+            let mut without = self.board.fit(&rig, Some((&x, &self.best.pieces)), &REFIT)?;
+            let now = self.judged(&self.best.blocks);
+            let needless = |without: &Fitted| {
+                let there = self.judged(&without.blocks);
+                let near = there.against(&now) < SURE && there.level() < 1.1 * now.level();
+                near && self.board.strayed(without).is_empty()
+            };
+            // What comes near at once may come all the way.
+            if !needless(&without) && self.judged(&without.blocks).level() < NOTHING * now.level() {
+                let from = (without.x.as_slice(), without.pieces.as_slice());
+                without = self.board.fit(&without.rig, Some(from), &REFIT)?;
+            }
+            if needless(&without) {
                 self.best = without;
                 effects.remove(place);
             }
         }
         Ok(())
     }
-
-    /// The effects worth a full refit: the best scores, and those that have none.
-    fn short_list(
-        &self,
-        gram: &Gram,
-        now: &Judged,
-        context: &Context,
-        options: &Options,
-    ) -> Vec<Scored> {
-        let scores = screen::scores(gram, &self.board.trains);
-        let gains = |s: &Scored| s.gain > 12.0 && self.scored(s).level() < now.level() - LEAST;
-        let mut all: Vec<Scored> = scores.into_iter().filter(|s| s.plausible && gains(s)).collect();
-        let rest = all.split_off(options.short_list.min(all.len()));
-        let mut list = all;
-        // Far from the truth a gain along a straight line says little; what the judging blocks say of it, more.
-        let mut rest: Vec<(f64, Scored)> =
-            rest.into_iter().map(|s| (self.scored(&s).level(), s)).collect();
-        rest.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let more = if now.level() > GROSS { BESIDE } else { 0 };
-        list.extend(rest.into_iter().take(more).map(|(_, s)| s));
-        for (kind, probes) in gram::lacking(&self.board, &self.best.rig, context) {
-            if gram::has_amount(kind) || now.level() < NOTHING {
-                continue;
-            }
-            list.extend(probes.into_iter().map(|values| Scored {
-                kind,
-                values,
-                nominal: Vec::new(),
-                gain: 0.0,
-                left: Vec::new(),
-                plausible: true,
-            }));
-        }
-        list
-    }
 }
 
-/// The best of the candidates, if it is surely there, with those that cannot be told from it.
-fn found(now: &Judged, rated: &[(Candidate, Judged)]) -> Option<Found> {
+/// The best of the candidates, if it is surely there, with those that cannot be told from it; of these the simplest
+/// goes first, for what needs more numbers fits more than there is.
+fn found<'c>(now: &Judged, rated: &'c [(Candidate, Judged)]) -> Option<(&'c Candidate, Found)> {
     let (best, judged) = rated.first()?;
     let gone = shrink(now.level(), judged.level());
-    let t = now.against(judged);
-    let sure = t >= SURE || (gone > MOST && t >= UNSURE);
-    if !sure || gone < WORTH || now.level() - judged.level() < LEAST {
+    // Near the floor a few dozen effects are tried on nothing, and the best of them is better by chance.
+    let quiet = now.level() < NOTHING;
+    let sure = |t: f64| {
+        if quiet { t >= CERTAIN } else { t >= SURE || (gone > MOST && t >= UNSURE) }
+    };
+    if !sure(now.against(judged)) || gone < WORTH || now.level() - judged.level() < LEAST {
         return None;
     }
     let rival = |(_, other): &&(Candidate, Judged)| {
@@ -365,9 +287,13 @@ fn found(now: &Judged, rated: &[(Candidate, Judged)]) -> Option<Found> {
         let alike = gone - worse < ALIKE * gone && other.level() < NEAR * judged.level();
         (other.against(judged) < UNSURE || alike) && worse > CLOSE * gone
     };
-    let rivals = rated.iter().skip(1).filter(rival).map(|(c, _)| name(c.kind));
-    let set: Vec<&'static str> = [name(best.kind)].into_iter().chain(rivals).collect();
+    let mut alike = vec![(best, judged)];
+    alike.extend(rated.iter().skip(1).filter(rival).map(|(c, judged)| (c, judged)));
+    alike.sort_by_key(|(c, _)| c.kind.about().keys.len());
+    let (best, judged) = alike[0];
+    let set: Vec<&'static str> = alike.iter().map(|(c, _)| name(c.kind)).collect();
     let separated_by =
         if set.len() > 1 { best.kind.about().separated_by.to_owned() } else { String::new() };
-    Some(Found { name: set[0], set, values: Vec::new(), shrink: gone, t, separated_by })
+    let (shrink, t) = (shrink(now.level(), judged.level()), now.against(judged));
+    Some((best, Found { name: set[0], set, values: Vec::new(), shrink, t, separated_by }))
 }

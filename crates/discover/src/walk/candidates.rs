@@ -1,0 +1,171 @@
+//! The effects that are worth a refit, and what a refit makes of them.
+
+use super::{GROSS, LEAST, NOTHING, Walk};
+use crate::{
+    board::Fitted,
+    decide::{Judged, shrink},
+    gram::{self, Gram},
+    model::{self, Candidate},
+    screen::{self, Scored},
+    verdict::{Options, Ranked, name},
+};
+use identify::{
+    Rig,
+    effects::{Context, Kind},
+    fit::FitError,
+};
+use rayon::prelude::*;
+
+/// What is worth a refit takes so much off the sum of squares, in units of the floor: five standard errors are 25.
+const GAIN: f64 = 12.0;
+
+/// So many more are refitted where the model is far off.
+const BESIDE: usize = 20;
+
+/// Of those, so many are refitted on the long windows.
+const AFRESH: usize = 8;
+
+/// Near the floor so few are worth a look.
+const FEW: usize = 2;
+
+/// So many candidates are followed to their ends, and those that leave no more than so many times the best.
+const FOLLOWED: usize = 3;
+const ENDS: f64 = 1.5;
+
+impl Walk<'_> {
+    /// The effects worth a refit, each refitted as far as a glance goes: from where the model is and, where that is
+    /// far off, from where it was before its own refit as well.
+    pub(super) fn candidates(
+        &self,
+        context: &Context,
+        options: &Options,
+        (round, start): (usize, Option<&Gram>),
+    ) -> Result<Vec<Candidate>, FitError> {
+        let now = self.judged(&self.best.blocks);
+        let far = round == 0 && now.level() > GROSS;
+        let points = if far { vec![&self.origin, &self.best] } else { vec![&self.best] };
+        let mut all: Vec<Candidate> = Vec::new();
+        for (place, point) in points.iter().enumerate() {
+            let gram = match start {
+                Some(gram) if place + 1 == points.len() => gram.clone(),
+                _ => Gram::of(&self.board, point, context)?,
+            };
+            let there = self.judged(&point.blocks);
+            let mut short = self.short_list(&gram, &there, context, options);
+            if round > 0 && now.level() < NOTHING {
+                short.truncate(FEW);
+            }
+            // Far from the truth the derivatives say little of where the other parameters are.
+            if far && place == 0 && !self.board.imposed() {
+                all.extend(self.afresh(point, &short));
+            } else {
+                let near = |scored: &Scored| model::refit(&self.board, point, scored).ok();
+                all.extend(short.par_iter().filter_map(near).collect::<Vec<Candidate>>());
+            }
+        }
+        Ok(all)
+    }
+
+    /// The effects refitted from a `point` far from the truth by way of short windows; those go on that are near there.
+    fn afresh(&self, point: &Fitted, list: &[Scored]) -> Vec<Candidate> {
+        let near = |scored: &Scored| {
+            let (rig, left) = model::afresh(&self.short, point, scored).ok()?;
+            Some((left, scored.kind, rig))
+        };
+        let mut all: Vec<(f64, Kind, Rig)> = list.par_iter().filter_map(near).collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.truncate(AFRESH);
+        let longer = |(_, kind, rig)| model::lengthened(&self.board, kind, &rig).ok();
+        all.into_par_iter().filter_map(longer).collect()
+    }
+
+    /// The plausible candidates, the best first, each effect once; all of them go to the ranking.
+    pub(super) fn rated(
+        &mut self,
+        candidates: Vec<Candidate>,
+        context: &Context,
+        (round, now): (usize, &Judged),
+    ) -> Vec<(Candidate, Judged)> {
+        let mut rated: Vec<(Candidate, Judged, bool)> = candidates
+            .into_iter()
+            .map(|c| {
+                let judged = self.judged(&c.fitted.blocks);
+                let fits = model::plausible(
+                    &c.fitted.rig,
+                    c.kind,
+                    context,
+                    &[&self.best.rig, &self.origin.rig],
+                );
+                (c, judged, fits)
+            })
+            .collect();
+        rated.sort_by(|a, b| a.1.level().total_cmp(&b.1.level()));
+        let mut seen = Vec::new();
+        rated.retain(|(c, _, plausible)| {
+            let first = !seen.contains(&(c.kind, *plausible));
+            seen.push((c.kind, *plausible));
+            first
+        });
+        self.ranking.extend(rated.iter().map(|(c, judged, plausible)| Ranked {
+            name: name(c.kind),
+            shrink: shrink(now.level(), judged.level()),
+            t: now.against(judged),
+            plausible: *plausible,
+            round,
+        }));
+        rated.into_iter().filter(|(.., plausible)| *plausible).map(|(c, j, _)| (c, j)).collect()
+    }
+
+    /// The candidates that may still be the best, followed to their ends.
+    pub(super) fn followed(&self, candidates: Vec<Candidate>) -> Vec<Candidate> {
+        let mut rated: Vec<(f64, Candidate)> =
+            candidates.into_iter().map(|c| (self.judged(&c.fitted.blocks).level(), c)).collect();
+        rated.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let near = ENDS * rated.first().map_or(0.0, |(level, _)| *level);
+        let all: Vec<(usize, (f64, Candidate))> = rated.into_iter().enumerate().collect();
+        let one = |(place, (level, candidate)): (usize, (f64, Candidate))| {
+            if place < FOLLOWED || level < near {
+                model::follow(&self.board, candidate).ok()
+            } else {
+                Some(candidate)
+            }
+        };
+        all.into_par_iter().filter_map(one).collect()
+    }
+
+    /// The effects worth a full refit: the best scores, and those that have none.
+    fn short_list(
+        &self,
+        gram: &Gram,
+        now: &Judged,
+        context: &Context,
+        options: &Options,
+    ) -> Vec<Scored> {
+        let far = now.level() > GROSS;
+        let scores = screen::scores(gram, !far, &self.board.trains);
+        let gains = |s: &Scored| s.gain > GAIN && self.scored(s).level() < now.level() - LEAST;
+        let mut all: Vec<Scored> = scores.into_iter().filter(|s| s.plausible && gains(s)).collect();
+        let rest = all.split_off(options.short_list.min(all.len()));
+        let mut list = all;
+        // Far from the truth a gain along a straight line says little; what the judging blocks say of it, more.
+        let mut rest: Vec<(f64, Scored)> =
+            rest.into_iter().map(|s| (self.scored(&s).level(), s)).collect();
+        rest.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let more = if far { BESIDE } else { 0 };
+        list.extend(rest.into_iter().take(more).map(|(_, s)| s));
+        for (kind, probes) in gram::lacking(&self.board, &self.best.rig, context) {
+            if gram::has_amount(kind) || now.level() < NOTHING {
+                continue;
+            }
+            list.extend(probes.into_iter().map(|values| Scored {
+                kind,
+                values,
+                nominal: Vec::new(),
+                gain: 0.0,
+                left: Vec::new(),
+                plausible: true,
+            }));
+        }
+        list
+    }
+}

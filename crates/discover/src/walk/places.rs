@@ -1,0 +1,129 @@
+//! Where what a model leaves acts: at what time, and in what state of the motion.
+
+use super::Walk;
+use crate::{board::Fitted, verdict::Share};
+
+/// The parts of a record, and the states of a motion.
+const THIRDS: [&str; 3] = ["first third", "second third", "last third"];
+const STATES: [&str; 4] = ["sticking", "break-away", "sliding forward", "sliding back"];
+
+/// Slower than this share of the largest velocity is at rest.
+const SLOW: f64 = 0.01;
+
+/// So many samples after a rest a motion still breaks away.
+const AFTER: usize = 10;
+
+/// So little of a sample's noise is no excess.
+const NONE: f64 = 0.1;
+
+/// One sample's squared residuals above what the floor leaves, and where it is.
+#[derive(Debug, Clone, Copy)]
+struct Excess {
+    sample: usize,
+    velocity: f64,
+    /// Above the floor [1].
+    above: f64,
+}
+
+impl Walk<'_> {
+    /// The shares of the excess of a model, by thirds of the record and by the state of the motion; each of the two
+    /// adds up to 1. None where there is no excess.
+    pub(super) fn shares(&self, refit: &Fitted) -> Vec<Share> {
+        let all = self.excess(refit);
+        let count = self.board.data.time.len().max(1);
+        if all.iter().map(|e| e.above).sum::<f64>() < NONE * count as f64 {
+            return Vec::new();
+        }
+        let thirds = summed(&THIRDS, all.iter().map(|e| (3 * e.sample / count, e.above)));
+        let states = states(&all);
+        let states = summed(&STATES, states.into_iter().zip(&all).map(|(s, e)| (s, e.above)));
+        thirds.into_iter().chain(states).collect()
+    }
+
+    /// Every sample of the windows, in the order of time.
+    fn excess(&self, refit: &Fitted) -> Vec<Excess> {
+        let data = self.board.data;
+        let mut all = Vec::new();
+        for (k, window) in self.board.windows.iter().enumerate() {
+            let imposed = self.board.imposed();
+            let piece = &refit.pieces[if imposed { 0 } else { k }];
+            let channels = if imposed { 1 } else { 1 + usize::from(data.velocity.is_some()) };
+            for i in 0..window.len() {
+                let sample = window.first + i;
+                let row = if imposed { sample } else { i * channels };
+                let Some(rows) = piece.residuals.get(row..row + channels) else { continue };
+                let above = rows.iter().map(|r| r * r - 1.0).sum();
+                let velocity = if imposed {
+                    let next = (sample + 1).min(data.input.len() - 1);
+                    data.input[next] - data.input[sample.saturating_sub(1)]
+                } else {
+                    piece.motion.v.get(i).copied().unwrap_or(0.0)
+                };
+                all.push(Excess { sample, velocity, above });
+            }
+        }
+        all
+    }
+}
+
+/// The state of the motion at every sample, as a place in [`STATES`].
+fn states(all: &[Excess]) -> Vec<usize> {
+    let fastest = all.iter().map(|e| e.velocity.abs()).fold(0.0, f64::max);
+    let mut since_rest = usize::MAX;
+    let one = |e: &Excess| {
+        if e.velocity.abs() <= SLOW * fastest {
+            since_rest = 0;
+            return 0;
+        }
+        since_rest = since_rest.saturating_add(1);
+        match e.velocity > 0.0 {
+            _ if since_rest <= AFTER => 1,
+            true => 2,
+            false => 3,
+        }
+    };
+    all.iter().map(one).collect()
+}
+
+/// The share of each part in what is above the floor.
+fn summed<const N: usize>(
+    names: &[&'static str; N],
+    all: impl Iterator<Item = (usize, f64)>,
+) -> Vec<Share> {
+    let mut sums = [0.0; N];
+    for (place, above) in all {
+        sums[place.min(N - 1)] += above;
+    }
+    let sums = sums.map(|sum: f64| sum.max(0.0));
+    let whole = sums.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+    names.iter().zip(sums).map(|(part, sum)| Share { part, share: sum / whole }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Excess, STATES, states, summed};
+
+    #[test]
+    fn a_motion_rests_breaks_away_and_slides_forth_and_back() {
+        let velocities = [0.0, 0.0, 0.3].into_iter().chain([1.0; 12]).chain([-1.0; 2]);
+        let all: Vec<Excess> = velocities
+            .enumerate()
+            .map(|(sample, velocity)| Excess { sample, velocity, above: 1.0 })
+            .collect();
+        let found = states(&all);
+        assert_eq!(found[..3], [0, 0, 1], "rest, then break-away");
+        assert_eq!((found[11], found[12], found[14], found[16]), (1, 2, 2, 3), "{found:?}");
+        let shares = summed(&STATES, found.into_iter().zip(&all).map(|(s, e)| (s, e.above)));
+        let of = |i: usize| shares[i].share * 17.0;
+        let expected = [2.0, 10.0, 3.0, 2.0];
+        assert!((0..4).all(|i| (of(i) - expected[i]).abs() < 1e-9), "{shares:?}");
+    }
+
+    #[test]
+    fn what_is_below_the_floor_is_no_excess() {
+        let shares = summed(&["a", "b"], [(0, -3.0), (1, 2.0)].into_iter());
+        assert_eq!((shares[0].share, shares[1].share), (0.0, 1.0));
+        let none = summed(&["a", "b"], [(0, -3.0)].into_iter());
+        assert!(none.iter().all(|s| s.share == 0.0), "{none:?}");
+    }
+}
