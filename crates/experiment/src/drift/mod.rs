@@ -11,8 +11,8 @@ use serde::Serialize;
 use serde_json::Value;
 use std::fmt;
 use tolerance::{
-    Close, DRAWN, DRAWN_FITTED, Exact, Ignored, Row, TIGHT, TINY, Tolerance, Within, case, fit,
-    misfit, order, parameter, searched, study, value,
+    Close, DRAWN, DRAWN_FITTED, Exact, Ignored, Row, TIGHT, TINY, Tolerance, Within, Words, case,
+    fit, misfit, order, parameter, searched, searched_parameter, study, told, value,
 };
 
 /// One field that moved.
@@ -45,8 +45,10 @@ pub fn drift(committed: &Summary, found: &Summary) -> Vec<Drift> {
     compare("cases.csv", (&committed.cases, &found.cases), case, &mut moved);
     compare("orders.csv", (&committed.orders, &found.orders), order, &mut moved);
     compare("measures.csv", (&committed.measures, &found.measures), value, &mut moved);
-    compare("claims.csv", (&committed.claims, &found.claims), value, &mut moved);
-    compare("figures.csv", (&committed.figures, &found.figures), |_, _| TIGHT, &mut moved);
+    let searching = !found.discoveries.is_empty();
+    let claim = if searching { told } else { value };
+    compare("claims.csv", (&committed.claims, &found.claims), claim, &mut moved);
+    compare("figures.csv", (&committed.figures, &found.figures), claim, &mut moved);
     compare("panels.csv", (&committed.panels, &found.panels), |_, _| TIGHT, &mut moved);
     // The steps that an adaptive solver took are as irreproducible as its counts.
     let histories: Vec<&str> =
@@ -66,7 +68,8 @@ pub fn drift(committed: &Summary, found: &Summary) -> Vec<Drift> {
     };
     compare("curves.csv", (&loops(committed), &loops(found)), curve, &mut moved);
     compare("fits.csv", (&committed.fits, &found.fits), fit, &mut moved);
-    compare("parameters.csv", (&committed.parameters, &found.parameters), parameter, &mut moved);
+    let values = if searching { searched_parameter } else { parameter };
+    compare("parameters.csv", (&committed.parameters, &found.parameters), values, &mut moved);
     compare("models.csv", (&committed.models, &found.models), misfit, &mut moved);
     compare("misfits.csv", (&committed.misfits, &found.misfits), misfit, &mut moved);
     searches(committed, found, &mut moved);
@@ -79,8 +82,15 @@ fn searches(committed: &Summary, found: &Summary, moved: &mut Vec<Drift>) {
     compare("discoveries.csv", both, searched, moved);
     compare("effects.csv", (&committed.effects, &found.effects), searched, moved);
     compare("gaps.csv", (&committed.gaps, &found.gaps), searched, moved);
-    compare("ranking.csv", (&committed.ranking, &found.ranking), searched, moved);
+    let near = [committed, found].map(near);
+    compare("ranking.csv", (&near[0], &near[1]), searched, moved);
     compare("shares.csv", (&committed.shares, &found.shares), searched, moved);
+}
+
+/// The candidates that come near; where the others stopped on their way is chance.
+fn near(summary: &Summary) -> Vec<record::RankedRow> {
+    const NEAR: f64 = 0.8;
+    summary.ranking.iter().filter(|row| row.shrink > NEAR).cloned().collect()
 }
 
 /// The figures that show fits and searches.
@@ -175,6 +185,10 @@ fn equal(was: &Value, is: &Value, tolerance: &Tolerance) -> bool {
             let (small, large) = (a.abs().min(b.abs()), a.abs().max(b.abs()));
             large <= factor * small + TINY
         }
+        (Words(share), ..) => match (was.as_str(), is.as_str()) {
+            (Some(was), Some(is)) => alike(was, is, *share),
+            _ => was == is,
+        },
         (Close { relative, absolute }, Some(a), Some(b)) => {
             (a - b).abs() <= relative * a.abs().max(b.abs()) + absolute
         }
@@ -182,11 +196,23 @@ fn equal(was: &Value, is: &Value, tolerance: &Tolerance) -> bool {
     }
 }
 
+/// Whether two texts have the same words, and numbers that differ by no more than a `share` of the larger.
+fn alike(was: &str, is: &str, share: f64) -> bool {
+    let (was, is) = (was.split_whitespace(), is.split_whitespace());
+    let number = |word: &str| word.trim_end_matches(['.', ',', ';', ':']).parse::<f64>().ok();
+    was.clone().count() == is.clone().count()
+        && was.zip(is).all(|(was, is)| match (number(was), number(is)) {
+            (Some(a), Some(b)) => (a - b).abs() <= share * a.abs().max(b.abs()),
+            _ => was == is,
+        })
+}
+
 #[cfg(test)]
 mod tests {
     use super::drift;
     use record::{
-        AboutRow, CaseRow, ClaimRow, CurveRow, MeasureRow, OrderRow, ParameterRow, Summary,
+        AboutRow, CaseRow, ClaimRow, CurveRow, DiscoveryRow, MeasureRow, OrderRow, ParameterRow,
+        Summary,
     };
 
     fn summary(row: CaseRow) -> Summary {
@@ -269,6 +295,23 @@ mod tests {
         };
         let moved = |found| drift(&fitted(1.0), &fitted(found)).len();
         assert_eq!((moved(1.004), moved(1.006)), (0, 1));
+    }
+
+    #[test]
+    fn of_a_search_the_words_count_and_the_sizes_of_its_numbers() {
+        let search = |why: &str, found: f64, refit: f64| Summary {
+            claims: vec![ClaimRow { why: why.to_owned(), ..ClaimRow::default() }],
+            parameters: vec![ParameterRow { found, standard_error: 0.1, ..Default::default() }],
+            discoveries: vec![DiscoveryRow { refit: Some(refit), ..Default::default() }],
+            ..Summary::default()
+        };
+        let was = search("It leaves 41.2 floors of 716, no more.", 1.0, 1700.0);
+        let moved = |why: &str, found, refit| drift(&was, &search(why, found, refit)).len();
+        assert_eq!(moved("It leaves 40.3 floors of 700, no more.", 1.29, 1630.0), 0);
+        assert_eq!(moved("It leaves 4.12 floors of 716, no more.", 1.0, 1700.0), 1);
+        assert_eq!(moved("It leaves 41.2 floors of 716, no less.", 1.0, 1700.0), 1);
+        assert_eq!(moved("It leaves 41.2 floors of 716, no more.", 1.31, 1700.0), 1);
+        assert_eq!(moved("It leaves 41.2 floors of 716, no more.", 1.0, 1000.0), 1);
     }
 
     #[test]

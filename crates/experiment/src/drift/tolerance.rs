@@ -12,10 +12,12 @@ pub(super) enum Tolerance {
     },
     /// Equal if neither is more than this many times the other, or both are tiny.
     Within(f64),
+    /// A text whose words are the same and whose numbers differ by no more than this share.
+    Words(f64),
     Ignored,
 }
 
-pub(super) use Tolerance::{Close, Exact, Ignored, Within};
+pub(super) use Tolerance::{Close, Exact, Ignored, Within, Words};
 
 /// Errors, orders and other results of a reproducible case.
 pub(super) const RESULT: Tolerance = Close { relative: 2e-3, absolute: 2e-12 };
@@ -25,6 +27,8 @@ pub(super) const WORK: Tolerance = Close { relative: 0.05, absolute: 20.0 };
 pub(super) const TIGHT: Tolerance = Close { relative: 1e-9, absolute: 1e-12 };
 /// What follows from a minimum that is found to a share of its standard errors.
 pub(super) const FITTED: Tolerance = Close { relative: 0.02, absolute: 1e-9 };
+/// What a search leaves.
+pub(super) const NEAR: Tolerance = Close { relative: 0.1, absolute: 1e-9 };
 /// What is drawn of a simulation with fitted parameters.
 pub(super) const DRAWN_FITTED: Tolerance = Close { relative: 1e-3, absolute: 1e-3 };
 /// What is drawn of a plant that was solved for: finer than a line is wide.
@@ -32,17 +36,45 @@ pub(super) const DRAWN: Tolerance = Close { relative: 1e-5, absolute: 1e-5 };
 /// Below this, errors and bounds of errors are rounding.
 pub(super) const TINY: f64 = 1e-12;
 
-/// Names are compared exactly; a rival that was never near has a number of some size and no more.
+/// Names are compared exactly. A search ends near a minimum, and where something is missing there is none: what is left
+/// there has a size and no more. A rival that was never near has a number of some size, too.
 pub(super) fn searched(field: &str, row: &Row) -> Tolerance {
-    let error = row.get("standard_error").and_then(Value::as_f64).unwrap_or(0.0);
     match field {
-        "before" | "refit" | "after" | "floor" | "standard_error" => FITTED,
-        "value" => Close { relative: 1e-9, absolute: 0.05 * error },
-        "shrink" | "share" => Close { relative: 0.05, absolute: 0.02 },
-        "t" => Close { relative: 0.1, absolute: 0.2 },
+        "before" => FITTED,
+        "after" | "floor" => NEAR,
+        "refit" | "standard_error" => Within(1.5),
+        "value" => Close { relative: 1e-9, absolute: SHORT * standard_error(row) },
+        "shrink" | "share" => Close { relative: 0.05, absolute: 0.05 },
+        "t" => Close { relative: 0.3, absolute: 0.5 },
         "truth" => TIGHT,
         _ => Exact,
     }
+}
+
+/// By how many standard errors a search may stop short of the minimum: along a valley the steps' own errors hide the way.
+const SHORT: f64 = 3.0;
+
+/// A parameter at the end of a search.
+pub(super) fn searched_parameter(field: &str, row: &Row) -> Tolerance {
+    let error = standard_error(row);
+    match field {
+        "found" => Close { relative: 1e-9, absolute: SHORT * error },
+        "low" | "high" => Close { relative: 1e-9, absolute: 1.5 * SHORT * error },
+        "standard_error" => Within(1.5),
+        _ => parameter(field, row),
+    }
+}
+
+/// A text that tells of a search: its words exactly, and its numbers as far as the search is.
+pub(super) fn told(field: &str, row: &Row) -> Tolerance {
+    match field {
+        "how" | "why" | "caption" => Words(0.5),
+        _ => value(field, row),
+    }
+}
+
+fn standard_error(row: &Row) -> f64 {
+    row.get("standard_error").and_then(Value::as_f64).unwrap_or(0.0)
 }
 
 pub(super) fn fit(field: &str, _: &Row) -> Tolerance {
@@ -56,7 +88,7 @@ pub(super) fn fit(field: &str, _: &Row) -> Tolerance {
 
 /// A minimum is found to a share of its standard errors, no better, and so are the ends of an interval.
 pub(super) fn parameter(field: &str, row: &Row) -> Tolerance {
-    let error = row.get("standard_error").and_then(Value::as_f64).unwrap_or(0.0);
+    let error = standard_error(row);
     match field {
         "found" | "low" | "high" => Close { relative: 0.0, absolute: 0.05 * error },
         "standard_error" => FITTED,

@@ -102,6 +102,9 @@ quantity!(
     }
 );
 
+/// How well a floor is known: the noise is estimated from the record, and the search ends near a minimum.
+const FLOOR: f64 = 0.02;
+
 /// The search that is meant.
 pub(crate) fn at<'a>(plan: &'a Plan, subject: &Subject) -> &'a Discovery {
     &plan.discoveries[subject.study]
@@ -132,5 +135,7 @@ fn level(
         record.gaps.iter().map(|gap| Some((of(gap)? / gap.floor).powi(2))).collect();
     let ratios = ratios.ok_or("a channel without a gap")?;
     let second = ratios.iter().sum::<f64>() / ratios.len() as f64;
-    Ok(Measured::of(squared.max(0.0).sqrt(), second.sqrt()))
+    let mut found = Measured::of(squared.max(0.0).sqrt(), second.sqrt());
+    found.error = found.error.max(FLOOR * found.value);
+    Ok(found)
 }
