@@ -102,13 +102,14 @@ fn rows(arguments: &HiddenArgs, threads: usize) -> Result<Vec<Row>, Failure> {
 
 #[cfg(test)]
 mod tests {
+    use crate::cli::{HIDDEN, SCORED};
     use twin::bench::{Hides, Recipe};
 
     /// What the full set is to hold at least, and what the default command draws.
     #[test]
     fn the_default_set_has_enough_of_every_kind() {
         let [mut quiet, mut single, mut foreign, mut pairs] = [0; 4];
-        for seed in super::table::SCORING..super::table::SCORING + crate::cli::HIDDEN as u64 {
+        for seed in SCORED..SCORED + HIDDEN as u64 {
             match Recipe::drawn(seed).hides {
                 Hides::Nothing | Hides::Parameter => quiet += 1,
                 Hides::Effects(names) if names.len() == 2 => pairs += 1,
