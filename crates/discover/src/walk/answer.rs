@@ -33,6 +33,11 @@ const NEARLY: f64 = 0.8;
 /// of the excess is a part of what is missing.
 const NO_NOISE: f64 = 1e4;
 
+/// So many neighbouring blocks, so many times as far off as the middle one, are no chance: on the tuning records with
+/// nothing missing three in a row come to 2.7 times at most.
+const LASTING: usize = 3;
+const STRUCK: f64 = 10.0;
+
 /// A nominal parameter that moves further was wrong: nominal values are a little off, always.
 const WRONG: f64 = 0.08;
 
@@ -46,7 +51,8 @@ impl Walk<'_> {
         let [first, nominal, last] =
             [before, refit, &self.best].map(|f| self.judged(&f.blocks).level());
         let middles = [before, refit, &self.best].map(|f| self.judged(&f.blocks).middle());
-        let unexplained = middles[2].min(last) > MORE || last > MUCH;
+        let struck = self.struck();
+        let unexplained = middles[2].min(last) > MORE || last > MUCH || struck;
         let map = if unexplained { self.map(context)? } else { None };
         let (values, wrong) = self.values(rig)?;
         for effect in &mut effects {
@@ -72,8 +78,12 @@ impl Walk<'_> {
                 parameter.moved = false;
             }
         }
-        let verdict =
-            verdict(&effects, &parameters, ([first, nominal, last], middles), map.as_ref());
+        let verdict = verdict(
+            &effects,
+            &parameters,
+            ([first, nominal, last], middles),
+            (map.as_ref(), struck),
+        );
         if verdict == Verdict::NotInLibrary {
             effects.clear();
         }
@@ -188,9 +198,26 @@ impl Walk<'_> {
         channels.into_iter().enumerate().map(one).collect()
     }
 
+    /// Whether something acts for a while only: some neighbouring blocks are far worse than the middle one. A single
+    /// one may have gone astray.
+    fn struck(&self) -> bool {
+        let mean = |(block, count): (&Vec<f64>, &f64)| block.iter().sum::<f64>() / count;
+        let blocks: Vec<f64> = self.best.blocks.iter().zip(&self.counts).map(mean).collect();
+        lasting(&blocks)
+    }
+
     fn judging(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.board.trains.len()).filter(|k| !self.board.trains[*k])
     }
+}
+
+/// Whether [`LASTING`] neighbouring blocks are each [`STRUCK`] times as far off as the middle one.
+fn lasting(blocks: &[f64]) -> bool {
+    let mut sorted = blocks.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let Some(middle) = sorted.get(sorted.len() / 2) else { return false };
+    let far = STRUCK * middle.max(1.0);
+    blocks.windows(LASTING).any(|run| run.iter().all(|block| *block > far))
 }
 
 /// The unit of a channel.
@@ -216,14 +243,14 @@ fn verdict(
     effects: &[Found],
     parameters: &[Moved],
     ([before, refit, last], middles): ([f64; 3], [f64; 3]),
-    map: Option<&MapOf>,
+    (map, struck): (Option<&MapOf>, bool),
 ) -> Verdict {
     let mapped = map.map_or(0.0, |map| map.shrink);
     // A few blocks that went astray say little; where most are off, all of them count.
     let more =
         |level: f64, middle: f64| level > MUCH || (level.min(middle) > MORE && mapped > SHOWN);
     if effects.is_empty() {
-        if more(refit, middles[1]) {
+        if struck || more(refit, middles[1]) {
             return Verdict::NotInLibrary;
         }
         let wrong = parameters.iter().any(|p| p.moved) && before > refit * 1.05;
@@ -238,4 +265,21 @@ fn verdict(
     let real = last > NO_NOISE && first > MOST;
     let part = named > NEARLY || (named > NAMED && mapped < MOST);
     if part || real { Verdict::Partial } else { Verdict::NotInLibrary }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::lasting;
+
+    #[test]
+    fn what_lasts_for_three_blocks_is_no_block_gone_astray() {
+        let with = |far: &[usize]| -> Vec<f64> {
+            (0..40).map(|k| if far.contains(&k) { 30.0 } else { 0.9 }).collect()
+        };
+        assert!(lasting(&with(&[7, 8, 9])));
+        assert!(!lasting(&with(&[7, 8, 10, 20])), "never three in a row");
+        // Where half of the blocks are far off the middle one is, too.
+        assert!(!lasting(&with(&(0..30).collect::<Vec<usize>>())));
+        assert!(!lasting(&[]));
+    }
 }
