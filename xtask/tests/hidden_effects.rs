@@ -9,7 +9,8 @@ use std::path::Path;
 /// Where they are; made by the command that stands in each card.
 const RECORDS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/hidden-effects");
 
-/// Seeds of records that are not answered rightly yet: a list to be worked down.
+/// Seeds of records that are not answered rightly yet: a list to be worked down. One that is fails the test until it
+/// is struck off.
 const NOT_YET: &[u64] = &[2];
 
 #[test]
@@ -23,7 +24,7 @@ fn what_is_hidden_in_the_committed_records_is_found() {
     for record in records {
         let seed = record["seed"].as_u64().expect("a seed");
         let listed = NOT_YET.contains(&seed);
-        assert!(listed || record["right"] == true, "answered so: {record:#}");
+        assert_eq!(record["right"], !listed, "answered so: {record:#}");
     }
     let kinds = ["nothing", "parameter", "single", "foreign", "pair"];
     for kind in kinds {

@@ -155,16 +155,17 @@ impl Gram {
         Ok(Self { nominal, names, prior, residuals: count, probes, blocks })
     }
 
-    /// The same, the nominal columns held near their values as much as the misfit asks for. Where the model is near, every
+    /// The sum over the blocks that `take` says, the nominal columns held near their values as much as the misfit asks for. Where the model is near, every
     /// block is worth its logarithm, so that one that went astray does not decide over all others.
     pub(crate) fn held(&self, near: bool, take: impl Fn(usize) -> bool) -> DMatrix<f64> {
-        let n = self.blocks.first().map_or(0, DMatrix::nrows);
         let count = self.residuals / self.blocks.len().max(1) as f64;
-        let taken = self.blocks.iter().enumerate().filter(|(k, _)| take(*k));
-        let mut sum = taken.fold(DMatrix::zeros(n, n), |sum, (_, block)| {
-            let mean = block[(n - 1, n - 1)] / count;
-            sum + block / if near && mean > SOFT { mean } else { 1.0 }
-        });
+        let worth = |block: &DMatrix<f64>| {
+            let last = block.nrows() - 1;
+            let mean = block[(last, last)] / count;
+            if near && mean > SOFT { mean } else { 1.0 }
+        };
+        let mut sum = self.weighed(take, worth);
+        let n = sum.nrows();
         let variance = (sum[(n - 1, n - 1)] / self.residuals).max(1.0);
         for (i, prior) in self.prior.iter().enumerate() {
             sum[(i, i)] += prior * variance;
@@ -174,9 +175,18 @@ impl Gram {
 
     /// The sum over the blocks that `take` says.
     pub(crate) fn sum(&self, take: impl Fn(usize) -> bool) -> DMatrix<f64> {
+        self.weighed(take, |_| 1.0)
+    }
+
+    /// The same, each block divided by what `worth` says of it.
+    fn weighed(
+        &self,
+        take: impl Fn(usize) -> bool,
+        worth: impl Fn(&DMatrix<f64>) -> f64,
+    ) -> DMatrix<f64> {
         let n = self.blocks.first().map_or(0, DMatrix::nrows);
         let taken = self.blocks.iter().enumerate().filter(|(k, _)| take(*k));
-        taken.fold(DMatrix::zeros(n, n), |sum, (_, block)| sum + block)
+        taken.fold(DMatrix::zeros(n, n), |sum, (_, block)| sum + block / worth(block))
     }
 }
 

@@ -48,6 +48,11 @@ const ALIKE: f64 = 0.03;
 /// A rival takes away at least so much of what the best one does.
 const CLOSE: f64 = 0.8;
 
+/// A model without an effect is as good if it leaves no more than so many times as much, and may become so if it
+/// leaves no more than this.
+const AS_GOOD: f64 = 1.1;
+const CLOSE_TO: f64 = 1.4;
+
 /// What takes away so much of the excess need not do so in every block alike.
 const MOST: f64 = 0.5;
 
@@ -252,11 +257,12 @@ impl Walk<'_> {
             let now = self.judged(&self.best.blocks);
             let needless = |without: &Fitted| {
                 let there = self.judged(&without.blocks);
-                let near = there.against(&now) < SURE && there.level() < 1.1 * now.level();
+                let near = there.against(&now) < SURE && there.level() < AS_GOOD * now.level();
                 near && self.board.strayed(without).is_empty()
             };
             // What comes near at once may come all the way.
-            if !needless(&without) && self.judged(&without.blocks).level() < NOTHING * now.level() {
+            if !needless(&without) && self.judged(&without.blocks).level() < CLOSE_TO * now.level()
+            {
                 let from = (without.x.as_slice(), without.pieces.as_slice());
                 without = self.board.fit(&without.rig, Some(from), &REFIT)?;
             }
