@@ -3,8 +3,14 @@
 use crate::board::{Board, Fitted, SOFT};
 use identify::{
     Effect, Rig,
-    effects::{Context, Kind, LAWS, Shape},
-    fit::{FitError, binding::Scale, problem::Problem, window::Window},
+    effects::{Context, Key, Kind, LAWS, Shape},
+    fit::{
+        FitError,
+        binding::Scale,
+        models,
+        problem::{Piece, Problem},
+        window::Window,
+    },
 };
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -62,16 +68,21 @@ pub(crate) fn has_amount(kind: Kind) -> bool {
     kind.about().keys.iter().any(|key| key.shape == Shape::Amount)
 }
 
+/// The values of an effect whose shapes are as probed: its amounts are 0.
+fn values_of(kind: Kind, probe: &[f64]) -> Vec<f64> {
+    let mut shapes = probe.iter().copied();
+    let value = |key: &Key| match key.shape {
+        Shape::Amount => 0.0,
+        _ => shapes.next().unwrap_or(1.0),
+    };
+    kind.about().keys.iter().map(value).collect()
+}
+
 /// `rig` with an effect that changes nothing yet, its amounts free; its values. A number other than 0 stands behind
 /// its name, so that several probes of one effect can stand side by side.
 pub(crate) fn with(rig: &mut Rig, kind: Kind, probe: &[f64], number: usize) -> Vec<f64> {
     let about = kind.about();
-    let mut shapes = probe.iter().copied();
-    let values: Vec<f64> = about
-        .keys
-        .iter()
-        .map(|key| if key.shape == Shape::Amount { 0.0 } else { shapes.next().unwrap_or(1.0) })
-        .collect();
+    let values = values_of(kind, probe);
     let named = about.keys.iter().zip(&values).map(|(key, v)| (key.name.to_owned(), *v)).collect();
     let name = if number == 0 { about.name.to_owned() } else { format!("{}#{number}", about.name) };
     let amounts = about.keys.iter().filter(|key| key.shape == Shape::Amount);
@@ -99,11 +110,14 @@ impl Gram {
         let own = board.problem(&fitted.rig, |_| true)?;
         let (nominal, names) =
             (own.free.len(), own.free.iter().map(|f| f.name.clone()).collect::<Vec<_>>());
-        let mut columns: Vec<Vec<DMatrix<f64>>> =
-            jacobians(board, &own, &fitted.x, fitted).into_iter().map(|j| vec![j]).collect();
-        let mut all: Vec<(Kind, Vec<f64>)> = Vec::new();
+        let mut columns: Vec<Vec<DMatrix<f64>>> = jacobians(board, &own, &fitted.x, &fitted.pieces)
+            .into_iter()
+            .map(|j| vec![j])
+            .collect();
+        let (mut all, mut begun): (Vec<(Kind, Vec<f64>)>, Vec<_>) = (Vec::new(), Vec::new());
         for (kind, probes) in lacking.into_iter().filter(|(kind, _)| has_amount(*kind)) {
-            all.extend(probes.into_iter().map(|probe| (kind, probe)));
+            let to = if kind.tried().is_empty() { &mut all } else { &mut begun };
+            to.extend(probes.into_iter().map(|probe| (kind, probe)));
         }
         let (mut probes, mut place, mut next): (Vec<Probe>, _, _) = (Vec::new(), nominal, 0);
         while next < all.len() {
@@ -123,14 +137,26 @@ impl Gram {
             for probe in &mut probes[first..] {
                 probe.sizes.fill_with(|| sizes.next().unwrap_or(1.0));
             }
-            for (k, j) in
-                jacobians(board, &problem, &vec![0.0; taken], fitted).into_iter().enumerate()
+            for (k, j) in jacobians(board, &problem, &vec![0.0; taken], &fitted.pieces)
+                .into_iter()
+                .enumerate()
             {
                 columns[k].push(j);
             }
             place += taken;
         }
-        let residuals = residuals(board, &own, fitted);
+        let residuals = residuals(board, &own, &fitted.x, &fitted.pieces);
+        for (kind, probe) in &begun {
+            for tried in kind.tried() {
+                let (size, moved) = tried_at(board, fitted, (*kind, probe, *tried), context)?;
+                let values = values_of(*kind, probe);
+                probes.push(Probe { kind: *kind, values, columns: vec![place], sizes: vec![size] });
+                place += 1;
+                for ((columns, r), moved) in columns.iter_mut().zip(&residuals).zip(moved) {
+                    columns.push(DMatrix::from_column_slice(r.len(), 1, (moved - r).as_slice()));
+                }
+            }
+        }
         let (prior, count) = (prior(&own), residuals.iter().map(|r| r.len() as f64).sum());
         let windows = columns.into_par_iter().zip(residuals).map(|(columns, r)| gram(&columns, &r));
         let blocks = folded(board, windows.collect());
@@ -145,8 +171,8 @@ impl Gram {
         let names = own.free.iter().map(|f| f.name.clone()).collect();
         let sizes: Vec<f64> = problem.free.iter().skip(nominal).map(|f| f.slope(0.0)).collect();
         let x: Vec<f64> = fitted.x.iter().copied().chain(vec![0.0; sizes.len()]).collect();
-        let jacobians = jacobians(board, &problem, &x, fitted);
-        let residuals = residuals(board, &own, fitted);
+        let jacobians = jacobians(board, &problem, &x, &fitted.pieces);
+        let residuals = residuals(board, &own, &fitted.x, &fitted.pieces);
         let (prior, count) = (prior(&own), residuals.iter().map(|r| r.len() as f64).sum());
         let both = jacobians.into_par_iter().zip(residuals);
         let windows = both.map(|(columns, r)| gram(&[columns], &r)).collect();
@@ -188,6 +214,28 @@ impl Gram {
         let taken = self.blocks.iter().enumerate().filter(|(k, _)| take(*k));
         taken.fold(DMatrix::zeros(n, n), |sum, (_, block)| sum + block / worth(block))
     }
+}
+
+/// The residuals with so much of an effect, of its natural size, and how much that is: for one that does not begin
+/// smoothly, so that no derivative says what a little of it does.
+fn tried_at(
+    board: &Board<'_>,
+    fitted: &Fitted,
+    (kind, probe, tried): (Kind, &[f64], f64),
+    context: &Context,
+) -> Result<(f64, Vec<DVector<f64>>), FitError> {
+    let mut rig = Fitted::holding(&fitted.rig);
+    with(&mut rig, kind, probe, 0);
+    let about = kind.about();
+    let mut amount = 0.0;
+    for key in about.keys.iter().filter(|key| key.shape == Shape::Amount) {
+        amount = tried * context.size(key.measure);
+        identify::fit::binding::set(&mut rig, &format!("{}.{}", about.name, key.name), amount);
+    }
+    rig.free.clear();
+    let problem = board.problem(&rig, |_| true)?;
+    let pieces = models::settled(&problem, &[], Some(&fitted.pieces), 1);
+    Ok((amount, residuals(board, &problem, &[], &pieces)))
 }
 
 /// How far a nominal value may be off, in its logarithm, before an effect is the better explanation.
@@ -235,9 +283,9 @@ fn jacobians(
     board: &Board<'_>,
     problem: &Problem<'_>,
     x: &[f64],
-    fitted: &Fitted,
+    pieces: &[Piece],
 ) -> Vec<DMatrix<f64>> {
-    let slopes = problem.all_slopes(x, &fitted.pieces);
+    let slopes = problem.all_slopes(x, pieces);
     let loads = problem.cells(x).1;
     let channels = problem.channels();
     let samples: usize = board.windows.iter().map(Window::len).sum();
@@ -265,17 +313,22 @@ fn jacobians(
 }
 
 /// Every block's residuals in the same order.
-fn residuals(board: &Board<'_>, problem: &Problem<'_>, fitted: &Fitted) -> Vec<DVector<f64>> {
-    let loads = problem.cells(&fitted.x).0;
+fn residuals(
+    board: &Board<'_>,
+    problem: &Problem<'_>,
+    x: &[f64],
+    pieces: &[Piece],
+) -> Vec<DVector<f64>> {
+    let loads = problem.cells(x).0;
     let channels = problem.channels();
     let samples: usize = board.windows.iter().map(Window::len).sum();
     let one = |k: usize| {
         let window = &board.windows[k];
         let n = window.len();
         let mut all: Vec<f64> = if board.imposed() {
-            fitted.pieces[0].residuals[window.first..window.end].to_vec()
+            pieces[0].residuals[window.first..window.end].to_vec()
         } else {
-            fitted.pieces[k].residuals[..n * channels].to_vec()
+            pieces[k].residuals[..n * channels].to_vec()
         };
         if !loads.is_empty() {
             for cell in 0..2 {

@@ -81,7 +81,8 @@ pub(crate) fn refit(
     let rig = with(fitted, scored);
     let problem = board.problem(&rig, |_| true)?;
     let x = begin(&problem, fitted, scored);
-    let candidate = board.fit(&rig, Some((&x, &fitted.pieces)), &GLANCE)?;
+    let patience = if scored.kind.tried().is_empty() { &GLANCE } else { &PATIENCE };
+    let candidate = board.fit(&rig, Some((&x, &fitted.pieces)), patience)?;
     Ok(Candidate { kind: scored.kind, fitted: candidate })
 }
 

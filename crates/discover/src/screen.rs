@@ -1,7 +1,7 @@
 //! The score of every effect: what a small amount of it would explain that the free parameters cannot.
 
 use crate::gram::{Gram, Probe};
-use identify::effects::{Kind, Sign};
+use identify::effects::{Kind, Shape, Sign};
 use nalgebra::{DMatrix, DVector};
 
 /// An effect at its best probe, along the derivative.
@@ -103,14 +103,48 @@ pub(crate) fn scores(gram: &Gram, near: bool, trains: &[bool]) -> Vec<Scored> {
     all
 }
 
+/// The Gram matrix where the residual has a whole `column` more.
+fn moved(gram: &DMatrix<f64>, column: usize) -> DMatrix<f64> {
+    let (mut moved, r) = (gram.clone(), gram.nrows() - 1);
+    for i in 0..r {
+        moved[(i, r)] += gram[(i, column)];
+        moved[(r, i)] = moved[(i, r)];
+    }
+    moved[(r, r)] += 2.0 * gram[(column, r)] + gram[(column, column)];
+    moved
+}
+
+/// What does not begin smoothly, as much of it as was tried.
+fn as_tried(gram: &Gram, train: &DMatrix<f64>, without: f64, probe: &Probe) -> Scored {
+    let own: Vec<usize> = (0..gram.nominal).collect();
+    let train = moved(train, probe.columns[0]);
+    let by = best(&train, &own);
+    let after = |block: &DMatrix<f64>| left(&moved(block, probe.columns[0]), &own, &by);
+    let first = probe.kind.about().keys.iter().position(|key| key.shape == Shape::Amount);
+    let mut values = probe.values.clone();
+    values[first.unwrap_or(0)] = probe.sizes[0];
+    Scored {
+        kind: probe.kind,
+        values,
+        nominal: by.iter().copied().collect(),
+        gain: without - left(&train, &own, &by),
+        left: gram.blocks.iter().map(after).collect(),
+        plausible: true,
+    }
+}
+
 fn score(gram: &Gram, train: &DMatrix<f64>, without: f64, probe: &Probe) -> Scored {
     let places: Vec<usize> = (0..gram.nominal).chain(probe.columns.iter().copied()).collect();
     let by = best(train, &places);
+    // A chord says something of what lies along it.
+    if !probe.kind.tried().is_empty() && !(0.1..10.0).contains(&by[gram.nominal]) {
+        return as_tried(gram, train, without, probe);
+    }
     let mut values = probe.values.clone();
     let mut amounts = 0;
     let mut plausible = true;
     for (value, key) in values.iter_mut().zip(probe.kind.about().keys) {
-        if key.shape != identify::effects::Shape::Amount {
+        if key.shape != Shape::Amount {
             continue;
         }
         *value = by[gram.nominal + amounts] * probe.sizes[amounts];

@@ -96,6 +96,9 @@ fn cost(minimum: &Minimum<'_>, nominal: &[Option<(f64, f64)>], loose: &[usize]) 
     }
     let scale = DVector::from_fn(n, |i, _| sum[(i, i)].sqrt().recip());
     let scaled = DMatrix::from_fn(n, n, |i, j| sum[(i, j)] * scale[i] * scale[j]);
+    if scaled.iter().any(|value| !value.is_finite()) {
+        return f64::INFINITY;
+    }
     let right = DVector::from_fn(n, |i, _| weight[i] * away[i] * scale[i]);
     let Ok(solved) = scaled.svd(true, true).solve(&right, 1e-12) else { return f64::INFINITY };
     let moved = solved.component_mul(&scale);

@@ -144,6 +144,9 @@ impl Walk<'_> {
         let far = now.level() > GROSS;
         let scores = screen::scores(gram, !far, &self.board.trains);
         let gains = |s: &Scored| s.gain > GAIN && self.scored(s).level() < now.level() - LEAST;
+        // What does not begin smoothly has its score only where it was tried, and is always worth a look.
+        let (joints, scores): (Vec<Scored>, Vec<Scored>) =
+            scores.into_iter().partition(|s| !s.kind.tried().is_empty());
         let mut all: Vec<Scored> = scores.into_iter().filter(|s| s.plausible && gains(s)).collect();
         let rest = all.split_off(options.short_list.min(all.len()));
         let mut list = all;
@@ -153,6 +156,9 @@ impl Walk<'_> {
         rest.sort_by(|a, b| a.0.total_cmp(&b.0));
         let more = if far { BESIDE } else { 0 };
         list.extend(rest.into_iter().take(more).map(|(_, s)| s));
+        if now.level() >= NOTHING {
+            list.extend(joints);
+        }
         for (kind, probes) in gram::lacking(&self.board, &self.best.rig, context) {
             if gram::has_amount(kind) || now.level() < NOTHING {
                 continue;

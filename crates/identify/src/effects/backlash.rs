@@ -1,41 +1,60 @@
 //! `backlash`: The load follows the motor only when a gap is used up.
 
-use super::{About, Channel, Key, Law, Measure, Sense, family::{has_tachometer}};
+use super::{About, Act, At, Channel, Key, Law, Measure, family::is_joined, joint::Joint};
 use crate::march::Real;
 
 /// The load follows the motor only when a gap is used up.
 pub(super) struct Backlash;
+
+/// The time in which teeth give way, of the sampling time: they are stiffer than what such a drive is sampled for.
+const TEETH: f64 = 0.1;
 
 impl Law for Backlash {
     const ABOUT: About = About {
         name: "backlash",
         physics: "The load follows the motor only when a gap is used up.",
         channel: Channel::Kinematics,
-        keys: &[Key::positive("gap", Measure::Length, 0.8)],
-        probes: About::no_shape,
-        applies: has_tachometer,
+        keys: &[
+            Key::positive("gap", Measure::Length, 0.8),
+            // The load's mass, of the motor's, its own friction, and the time in which the teeth give way: one over
+            // the frequency [rad/s] at which the load would ring on them.
+            Key::fitted("ratio", Measure::One),
+            Key::fitted("rubs", Measure::Force),
+            Key::fitted("teeth", Measure::Time),
+        ],
+        probes: |c| vec![vec![0.15, 0.02 * c.force, TEETH * c.sample_time]],
+        applies: is_joined,
         confused: &["compliance", "presliding"],
         separated_by: "slow reversals, with the motor's own angle recorded",
         test: 0.1,
     };
+    const STATES: usize = 2;
+    const TRIED: &[f64] = &[3e-5, 3e-4, 3e-3, 3e-2];
 
-    fn sense<D: Real>(p: &[D], sense: &mut Sense<'_, D>) {
-        // The load lags by up to half a gap on either side; its place in the gap, of half of it, is remembered.
-        let half = p[0] * 0.5;
-        if sense.dt == 0.0 {
-            *sense.memory = D::from(if sense.v.re() < 0.0 { -1.0 } else { 1.0 });
-        } else if half.re() > 0.0 {
-            let next = *sense.memory + sense.moved / half;
-            *sense.memory = if next.re() > 1.0 {
-                D::from(1.0)
-            } else if next.re() < -1.0 {
-                D::from(-1.0)
-            } else {
-                next
-            };
-        } else if sense.moved.re() != 0.0 {
-            *sense.memory = D::from(sense.moved.re().signum());
-        }
-        sense.q -= half * *sense.memory;
+    fn joins<D: Real>(p: &[D]) -> bool {
+        p[0].re() > 0.0
     }
+
+    fn mass<D: Real>(p: &[D], mass: D) -> D {
+        if Self::joins(p) { mass / (p[1] + 1.0) } else { mass }
+    }
+
+    fn act<D: Real>(p: &[D], at: &At<D>, base: &[D], z: &mut [D]) -> Act<D> {
+        if !Self::joins(p) {
+            z.copy_from_slice(base);
+            return Act::none();
+        }
+        joint(p, at).act(at, base, z)
+    }
+
+    fn ahead<D: Real>(p: &[D], at: &At<D>, (way, off): (f64, D)) -> D {
+        joint(p, at).ahead(at, way, off)
+    }
+}
+
+/// Teeth that do not ring.
+fn joint<D: Real>(p: &[D], at: &At<D>) -> Joint<D> {
+    let mass = p[1] * at.mass;
+    let (stiffness, damping) = (mass / (p[3] * p[3]), mass * 2.0 / p[3]);
+    Joint { mass, stiffness, damping, half: Some(p[0] * 0.5), rubs: p[2] }
 }

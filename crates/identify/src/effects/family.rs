@@ -7,6 +7,11 @@ pub(super) fn driven(rig: &Rig) -> bool {
     rig.kind != "prescribed"
 }
 
+/// Whether it is driven, and motor and load are one mass so far.
+pub(super) fn is_joined(rig: &Rig) -> bool {
+    driven(rig) && !rig.two_masses()
+}
+
 /// Whether it has friction of its own.
 pub(super) fn rubs(rig: &Rig) -> bool {
     rig.friction.name != "none"

@@ -1,7 +1,7 @@
 //! Where an effect takes hold.
 
 use super::{About, Kind};
-use crate::march::Real;
+use crate::march::{Balance, Real};
 
 /// An instant of a motion, as a law sees it.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +22,10 @@ pub struct At<D> {
     pub f_c: D,
     /// The shortest deflection at which the contact slips [m].
     pub grain: f64,
+    /// What drives the plant.
+    pub balance: Balance<D>,
+    /// The mass that moves, the motor's where the load is another [kg].
+    pub mass: D,
     /// What share of its level the contact held before the stage [1]: so much of the motion is slip.
     pub held: D,
 }
@@ -81,6 +85,8 @@ pub struct Sense<'a, D> {
     pub v: D,
     /// How far the displacement has come since the sample before [m].
     pub moved: D,
+    /// How fast the velocity changes, as a line since the sample before; at the first, until the next [m/s²].
+    pub slope: D,
     /// How fast the drive changes [N/s].
     pub rate: f64,
     /// Time since the sample before [s]; 0 at the first.
@@ -111,6 +117,9 @@ pub trait Law {
     /// Whether it is friction that can hold whatever the velocity does next.
     const DRY: bool = false;
 
+    /// The amounts at which it is tried, of their natural size, if it does not begin smoothly.
+    const TRIED: &[f64] = &[];
+
     /// The input as it truly is where `u` was recorded.
     fn input<D: Real>(_p: &[D], u: D) -> D {
         u
@@ -138,6 +147,17 @@ pub trait Law {
 
     /// Its states after long sliding in the direction `way`, or at rest if that is 0.
     fn start<D: Real>(_p: &[D], _way: f64, _path: &[f64]) -> D {
+        D::from(0.0)
+    }
+
+    /// Whether motor and load are two masses; then the states are displacement and speed of the load.
+    fn joins<D: Real>(_p: &[D]) -> bool {
+        false
+    }
+
+    /// By how much the motor is then ahead of a load at `at`, that it drives the given `way` or holds at rest if that
+    /// is 0, and that may be off where it is driven by so many times the joint's size [m].
+    fn ahead<D: Real>(_p: &[D], _at: &At<D>, _how: (f64, D)) -> D {
         D::from(0.0)
     }
 

@@ -9,6 +9,7 @@
 mod about;
 mod family;
 mod hooks;
+mod joint;
 
 pub use about::{About, Channel, Context, Key, Measure, Shape, Sign};
 pub use hooks::{Act, At, Law, Load, Sense, Term};
@@ -101,6 +102,28 @@ macro_rules! effects {
                  }
             }
 
+            /// The amounts at which it is tried, of their natural size; none if it begins smoothly.
+            pub fn tried(self) -> &'static [f64] {
+                match self {
+                    $(Self::$law => $module::$law::TRIED,)*
+                    $(Self::$hidden => $other::$hidden::TRIED,)*
+                 }
+            }
+
+            pub(crate) fn joins<D: Real>(self, p: &[D]) -> bool {
+                match self {
+                    $(Self::$law => $module::$law::joins(p),)*
+                    $(Self::$hidden => $other::$hidden::joins(p),)*
+                 }
+            }
+
+            pub(crate) fn ahead<D: Real>(self, p: &[D], at: &At<D>, how: (f64, D)) -> D {
+                match self {
+                    $(Self::$law => $module::$law::ahead(p, at, how),)*
+                    $(Self::$hidden => $other::$hidden::ahead(p, at, how),)*
+                 }
+            }
+
             pub(crate) fn sense<D: Real>(self, p: &[D], sense: &mut Sense<'_, D>) {
                 match self {
                     $(Self::$law => $module::$law::sense(p, sense),)*
@@ -149,6 +172,9 @@ effects! {
     load_cell_drift::LoadCellDrift;
     map::Map,
 }
+
+/// The effects that part motor and load, each with the amount without which it does not.
+pub(crate) const JOINTS: [(&str, &str); 2] = [("backlash", "gap"), ("compliance", "compliance")];
 
 /// The wavenumbers of so many half periods over the record's stretch.
 fn wavenumbers(context: &Context, most: u32) -> Vec<Vec<f64>> {

@@ -6,6 +6,9 @@ use crate::march::Real;
 /// The velocity sensor follows late, as behind a filter.
 pub(super) struct VelocityLag;
 
+/// A filter that has forgotten all but exp(−40) of a sample before.
+const QUICK: f64 = 40.0;
+
 impl Law for VelocityLag {
     const ABOUT: About = About {
         name: "velocity_lag",
@@ -20,10 +23,15 @@ impl Law for VelocityLag {
     };
 
     fn sense<D: Real>(p: &[D], sense: &mut Sense<'_, D>) {
-        if sense.dt > 0.0 {
-            let share = p[0] / sense.dt;
-            sense.v = (sense.v + share * *sense.memory) / (share + 1.0);
-        }
+        // Exact where the velocity is a line from sample to sample, and was one for long before the first.
+        let (tau, slope) = (p[0], sense.slope);
+        let follows = sense.v - slope * tau;
+        sense.v = if sense.dt == 0.0 || tau.re() * QUICK < sense.dt {
+            follows
+        } else {
+            let kept = (-tau.recip() * sense.dt).exp();
+            follows + kept * (*sense.memory - follows + slope * sense.dt)
+        };
         *sense.memory = sense.v;
     }
 }

@@ -137,6 +137,8 @@ fn at<D: Real>(model: &Model<D>, (t, dt): (f64, f64), (q, v): (f64, f64)) -> At<
         radius: 1.0,
         f_c: model.contact.level(),
         grain: model.contact.grain(),
+        balance: model.balance,
+        mass: model.balance.mass,
         held: D::from(1.0),
     }
 }

@@ -4,7 +4,6 @@ use super::{
     newton::Local,
     problem::Problem,
     search::{Found, Patience, search},
-    window::START,
 };
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -34,7 +33,7 @@ pub(super) fn spread(problem: &Problem<'_>, found: &Found, local: &Local) -> Spr
     let n = found.x.len();
     let samples: usize = found.pieces.iter().map(|p| p.residuals.len()).sum::<usize>()
         + problem.loads(&found.x).0.len();
-    let unknown = n + if problem.data.force.is_some() { 0 } else { START * problem.windows.len() };
+    let unknown = n + problem.starts() * problem.windows.len();
     let variance = found.misfit / (samples.saturating_sub(unknown)).max(1) as f64;
     let inverse = inverse(&local.gauss);
     let neighbours = neighbours(problem, found);

@@ -235,6 +235,9 @@ const ASTRAY: f64 = 5.0;
 /// Where else a contact may begin, from what the run-up says, of its natural size.
 const ELSEWHERE: [f64; 8] = [-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0];
 
+/// How far off its tooth a load may begin, of half its play.
+const OFF: [f64; 3] = [0.5, 1.0, 2.0];
+
 /// How much faster or slower it may begin, of the spread of the start.
 const FASTER: f64 = 0.2;
 
@@ -254,16 +257,19 @@ pub fn rescued(problem: &Problem<'_>, x: &[f64], pieces: Vec<Piece>) -> Vec<Piec
         if mean(&piece) < ASTRAY * middle.max(1.0) || problem.data.force.is_some() {
             return piece;
         }
-        let [q, v, _] = window.start;
+        let [q, v, ..] = window.start;
         let near = FASTER * window.spread[1];
-        let shifts = ELSEWHERE.into_iter().map(|shift| [q, v, shift]);
+        let shifts = ELSEWHERE.into_iter().map(|shift| [q, v, shift, 0.0, 0.0]);
         // Whether it rests or creeps is a leap under Coulomb friction.
-        let speeds = [0.0, v - near, v + near, -v].into_iter().map(|v| [q, v, 0.0]);
+        let speeds = [0.0, v - near, v + near, -v].into_iter().map(|v| [q, v, 0.0, 0.0, 0.0]);
+        // A load may be anywhere in its play.
+        let places = if problem.starts() == START { &OFF[..] } else { &[] };
+        let places = places.iter().map(|off| [q, v, 0.0, *off, 0.0]);
         // How a window began shows soon.
         let head = window.beginning(window.len() / EARLY);
         let early = |start| problem.piece(x, &head, start).misfit();
         let mut starts: Vec<([f64; START], f64)> =
-            shifts.chain(speeds).map(|start| (start, early(start))).collect();
+            shifts.chain(speeds).chain(places).map(|start| (start, early(start))).collect();
         starts.sort_by(|a, b| a.1.total_cmp(&b.1));
         let mut best = piece;
         for (start, _) in starts.into_iter().take(TRIED) {

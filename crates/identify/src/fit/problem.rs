@@ -4,7 +4,7 @@ use super::{
     binding::{Free, Scale, given, model},
     data::Data,
     imposed::forces,
-    window::{START, Window},
+    window::{ONE_MASS, START, Window},
 };
 pub use super::{
     piece::{Lead, Piece, Slopes},
@@ -61,7 +61,16 @@ const NO_MOTION: f64 = 1e4;
 impl Problem<'_> {
     /// The number of residuals of a window.
     fn rows(&self, window: &Window) -> usize {
-        window.len() * self.channels() + if self.data.force.is_some() { 0 } else { START }
+        window.len() * self.channels() + self.starts()
+    }
+
+    /// How many numbers of a window's start are unknown.
+    pub(super) fn starts(&self) -> usize {
+        match self.data.force {
+            Some(_) => 0,
+            None if self.rig.two_masses() => START,
+            None => ONE_MASS,
+        }
     }
 
     /// How many residuals a sample has.
@@ -131,7 +140,7 @@ impl Problem<'_> {
 
     /// The state of the contact at a window's start follows from how it came there.
     fn state<D: Real>(&self, model: &Model<D>, window: &Window, start: [D; START]) -> Start<D> {
-        let [q, v, shift] = start;
+        let [q, v, shift, off, faster] = start;
         // By the nominal memory: the answer must not jump where a parameter passes a limit.
         let z = if let Some(z) = model.contact.slipped(&window.path) {
             z
@@ -144,6 +153,14 @@ impl Problem<'_> {
         let mut z = model.contact.shifted(z, shift);
         let way = if window.run_up == 0.0 { 0.0 } else { window.run_up.signum() };
         z.extend(model.effects_from(way, &window.path));
+        if !self.rig.two_masses() {
+            return Start { q, v, z };
+        }
+        // The displacement is the load's, a measured velocity the motor's.
+        let [v, load] =
+            if self.data.velocity.is_some() { [v, v - faster] } else { [v + faster, v] };
+        let u = D::from(self.data.input[window.first]);
+        let q = model.motor(u, [q, load], (way, off), &mut z);
         Start { q, v, z }
     }
 
@@ -175,7 +192,7 @@ impl Problem<'_> {
         for i in 0..window.len() {
             self.sample(window.first + i, &motion, i, &mut residuals);
         }
-        for (i, spread) in window.spread.iter().enumerate() {
+        for (i, spread) in window.spread.iter().enumerate().take(self.starts()) {
             residuals.push((start[i] - window.start[i]) / spread);
         }
         Piece { start, motion, residuals }
@@ -233,7 +250,8 @@ impl Problem<'_> {
 
     /// The derivatives of a window's residuals by the variables `x`, and by its start.
     pub fn slopes(&self, x: &[f64], window: &Window, piece: &Piece) -> Slopes {
-        let columns = self.free.len() + START;
+        let (free, starts) = (self.free.len(), self.starts());
+        let columns = free + if starts == 0 { ONE_MASS } else { starts };
         let mut jacobian = DMatrix::zeros(self.rows(window), columns);
         match columns {
             0..=3 => self.columns::<4>(x, window, piece, &mut jacobian),
@@ -242,28 +260,29 @@ impl Problem<'_> {
             _ => self.columns::<16>(x, window, piece, &mut jacobian),
         }
         let n = jacobian.nrows();
-        if self.data.force.is_some() {
-            let lead = Lead::staying(piece.start, self.free.len());
-            return Slopes { jacobian: jacobian.columns(0, self.free.len()).into_owned(), lead };
+        if starts == 0 {
+            let lead = Lead::staying(piece.start, free);
+            return Slopes { jacobian: jacobian.columns(0, free).into_owned(), lead };
         }
-        for (i, spread) in window.spread.iter().enumerate() {
-            jacobian[(n - START + i, self.free.len() + i)] = spread.recip();
+        for (i, spread) in window.spread.iter().enumerate().take(starts) {
+            jacobian[(n - starts + i, free + i)] = spread.recip();
         }
-        let by_start = jacobian.columns(self.free.len(), START).into_owned();
-        let by_x = jacobian.columns(0, self.free.len()).into_owned();
+        let by_start = jacobian.columns(free, starts).into_owned();
+        let by_x = jacobian.columns(0, free).into_owned();
         // The columns differ in size by the units of q and v; their directions are what counts.
-        let sizes: [f64; START] = std::array::from_fn(|j| by_start.column(j).norm());
-        let unit = DMatrix::from_fn(n, START, |i, j| by_start[(i, j)] / sizes[j]);
+        let sizes: Vec<f64> = by_start.column_iter().map(|column| column.norm()).collect();
+        let unit = DMatrix::from_fn(n, starts, |i, j| by_start[(i, j)] / sizes[j]);
         let qr = unit.qr();
         let (q, r) = (qr.q(), qr.r());
-        let inverse = r.try_inverse().unwrap_or_else(|| DMatrix::zeros(START, START));
+        let inverse = r.try_inverse().unwrap_or_else(|| DMatrix::zeros(starts, starts));
         let residuals = DMatrix::from_column_slice(n, 1, &piece.residuals);
         let along = q.transpose() * &by_x;
         let scaled =
-            |m: DMatrix<f64>| DMatrix::from_fn(START, m.ncols(), |i, j| -m[(i, j)] / sizes[i]);
+            |m: DMatrix<f64>| DMatrix::from_fn(starts, m.ncols(), |i, j| -m[(i, j)] / sizes[i]);
         let more = scaled(&inverse * (q.transpose() * residuals));
-        let by = scaled(&inverse * &along);
-        let start = std::array::from_fn(|i| piece.start[i] + more[(i, 0)]);
+        let by = scaled(&inverse * &along).resize_vertically(START, 0.0);
+        let start =
+            std::array::from_fn(|i| piece.start[i] + if i < starts { more[(i, 0)] } else { 0.0 });
         let lead = Lead { was: piece.start, misfit: piece.misfit(), start, by };
         Slopes { jacobian: by_x - q * along, lead }
     }
@@ -276,7 +295,7 @@ impl Problem<'_> {
         jacobian: &mut DMatrix<f64>,
     ) {
         let mut first = 0;
-        while first < self.free.len() + START {
+        while first < jacobian.ncols() {
             self.some_columns::<P>(x, window, piece, (first, jacobian));
             first += P - 1;
         }

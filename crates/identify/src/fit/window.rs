@@ -22,11 +22,18 @@ pub struct Window {
 }
 
 /// The numbers of a window's start: displacement [m], velocity [m/s], and how far the contact's states are from
-/// what the run-up says of them [of their natural size].
-pub const START: usize = 3;
+/// what the run-up says of them [of their natural size]; where motor and load are two masses, how far these are from
+/// where the one drives the other [of the joint's size], and how much faster the motor is [m/s].
+pub const START: usize = 5;
+
+/// So many of them where motor and load are one.
+pub(super) const ONE_MASS: usize = 3;
 
 /// The standard deviation of the last of them: a contact that still rings is not where it holds the force.
 const UNKNOWN: f64 = 0.1;
+
+/// The standard deviation of how much faster the motor is than the load, of the record's largest speed.
+const FASTER: f64 = 0.1;
 
 /// How many samples tell the state at a window's start.
 const LOOK: usize = 9;
@@ -63,8 +70,14 @@ impl Window {
         Self {
             first,
             end,
-            start: [q, v, 0.0],
-            spread: [LOOSE * q_spread, LOOSE * v_spread, UNKNOWN],
+            start: [q, v, 0.0, 0.0, 0.0],
+            spread: [
+                LOOSE * q_spread,
+                LOOSE * v_spread,
+                UNKNOWN,
+                1.0,
+                FASTER * data.speed().max(f64::MIN_POSITIVE),
+            ],
             run_up: if v.abs() > MOVING * v_spread { come * same(come, v) } else { 0.0 },
             path: Vec::new(),
         }
@@ -79,8 +92,10 @@ impl Window {
         let end = (self.first + LOOK).min(self.end);
         let (time, look) = (&data.time[self.first..end], &seen.values[self.first..end]);
         let wider = bent(time, look) / seen.noise.max(f64::MIN_POSITIVE);
-        let [q, v, z] = self.spread;
-        let spread = if wider > BENT { [q * wider, v * wider, z] } else { self.spread };
+        let mut spread = self.spread;
+        if wider > BENT {
+            spread[..2].iter_mut().for_each(|spread| *spread *= wider);
+        }
         Self { spread, path, ..self }
     }
 

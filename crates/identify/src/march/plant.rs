@@ -1,6 +1,6 @@
 //! The plant as the march sees it: one equation for all five kinds.
 
-use super::{Contact, Real};
+use super::{Contact, Real, run::Tolerance};
 use crate::effects::{Act, At, Sense, Term};
 
 /// What drives the plant beside friction: T = gain·u + constant − stiffness·q − damping·v − gravity·sin q.
@@ -92,10 +92,8 @@ impl<D: Real> Model<D> {
             }
             return force - friction;
         }
-        let (t, dt, radius) = (stage.t, stage.dt, self.radius);
-        let (f_c, grain, held) =
-            (self.contact.level(), self.contact.grain(), self.contact.held(&base[..n]));
-        let at = At { t, dt, drive: driving, q, v, radius, f_c, grain, held };
+        let at = self.at(stage, driving, [q, v], &base[..n]);
+        let f_c = at.f_c;
         let mut all = self.acts(&at, &base[n..], &mut z[n..]);
         let friction = self.contact.stage(&base[..n], stage.dt, (v, all.rise), &mut z[..n]);
         all.risen(f_c, self.contact.bristles());
@@ -107,6 +105,43 @@ impl<D: Real> Model<D> {
             force -= (f_c + f_c * (all.more + all.skew * way) + all.dry) * way;
         }
         force
+    }
+
+    /// An instant, as the effects see it; the contact began the stage with the states `base`.
+    fn at(&self, stage: &Stage<D>, drive: D, [q, v]: [D; 2], base: &[D]) -> At<D> {
+        let (f_c, grain, held) =
+            (self.contact.level(), self.contact.grain(), self.contact.held(base));
+        let (t, dt, radius) = (stage.t, stage.dt, self.radius);
+        let (balance, mass) = (self.balance, self.mass());
+        At { t, dt, drive, q, v, radius, f_c, grain, balance, mass, held }
+    }
+
+    /// Where the load's states begin among all, if it is not one with the motor.
+    pub(super) fn joint(&self) -> Option<usize> {
+        let mut first = self.contact.states();
+        for e in &self.effects {
+            if e.kind.joins(&e.p) {
+                return Some(first);
+            }
+            first += e.kind.states();
+        }
+        None
+    }
+
+    /// The displacement that is measured [m]: the load's.
+    pub(super) fn displacement(&self, q: D, z: &[D]) -> D {
+        self.joint().map_or(q, |first| z[first])
+    }
+
+    /// The motor's displacement [m] where the load's is `q` with the speed `v`, driven by the input `u` `how`
+    /// [`effects::Law::ahead`](crate::effects::Law::ahead) has it; the load's own goes to the states `z`.
+    pub(crate) fn motor(&self, u: D, [q, v]: [D; 2], how: (f64, D), z: &mut [D]) -> D {
+        let Some(first) = self.joint() else { return q };
+        (z[first], z[first + 1]) = (q, v);
+        let stage = Stage { t: 0.0, dt: 0.0, u };
+        let at = self.at(&stage, self.driving(u), [q, v], &z[..self.contact.states()]);
+        let joint = self.effects.iter().find(|e| e.kind.joins(&e.p));
+        joint.map_or(q, |e| q + e.kind.ahead(&e.p, &at, how))
     }
 
     /// What the effects add to the friction, all together.
@@ -133,13 +168,19 @@ impl<D: Real> Model<D> {
 
     /// The states of the effects after long sliding in the direction `way`, or at rest if it is 0.
     pub fn effects_from(&self, way: f64, path: &[f64]) -> Vec<D> {
-        let with = self.effects.iter().filter(|e| e.kind.states() > 0);
-        with.map(|e| e.kind.start(&e.p, way, path)).collect()
+        let of = |e: &Term<D>| vec![e.kind.start(&e.p, way, path); e.kind.states()];
+        self.effects.iter().flat_map(of).collect()
     }
 
-    /// The size of state `i`: the contact's own, 1 for those of the effects.
-    pub(super) fn size(&self, i: usize) -> f64 {
-        if i < self.contact.states() { self.contact.scale() } else { 1.0 }
+    /// What a step may be wrong by in every state: the contact's by its own size, the load's as the motor's, those of
+    /// other effects of 1.
+    pub(super) fn allowed(&self, tolerance: &Tolerance) -> Vec<f64> {
+        let mut allowed = vec![tolerance.z; self.states()];
+        allowed[..self.contact.states()].fill(tolerance.z * self.contact.scale());
+        if let Some(first) = self.joint() {
+            allowed[first..first + 2].copy_from_slice(&[tolerance.q, tolerance.v]);
+        }
+        allowed
     }
 
     /// By how much the input comes late [s], where it does.
@@ -150,13 +191,13 @@ impl<D: Real> Model<D> {
     /// What the sensors show of the displacement and the velocity [m, m/s]; `memory` has a number for each effect.
     pub(super) fn senses(
         &self,
-        [q, v, moved]: [D; 3],
+        [q, v, moved, slope]: [D; 4],
         [rate, dt]: [f64; 2],
         memory: &mut [D],
     ) -> [D; 2] {
         let mut now = [q, v];
         for (e, memory) in self.effects.iter().zip(memory) {
-            let mut sense = Sense { q: now[0], v: now[1], moved, rate, dt, memory };
+            let mut sense = Sense { q: now[0], v: now[1], moved, slope, rate, dt, memory };
             e.kind.sense(&e.p, &mut sense);
             now = [sense.q, sense.v];
         }

@@ -26,23 +26,34 @@ pub fn replay<const P: usize>(
     let mut seen = Vec::with_capacity(3);
     let mut walker = Again::new(model);
     let mut memory = vec![DualSVec64::<P>::from(0.0); model.effects.len()];
-    let (mut next, mut before) = (0, state.q);
+    let mut sensed = |i: usize, [q, v, moved, slope]: [DualSVec64<P>; 4], u: DualSVec64<P>| {
+        let dt = if i == 0 { 0.0 } else { time[i] - time[i - 1] };
+        let rate = model.balance.gain.re() * rate(drive, time, i);
+        let [q, v] = model.senses([q, v, moved, slope], [rate, dt], &mut memory);
+        see(i, q, v, u);
+    };
+    let mut before: Option<[DualSVec64<P>; 3]> = None;
+    let mut next = 0;
     for i in 0..samples {
         if seen.len() == 3 {
             seen.remove(0);
         }
-        seen.push(state.q);
+        let shown = model.displacement(state.q, &state.z);
+        seen.push(shown);
         let ends = inputs(drive, i, &seen, model.delay().map(|delay| (delay, time)));
-        if model.effects.is_empty() {
-            see(i, state.q, state.v, ends[0]);
-        } else {
-            let dt = if i == 0 { 0.0 } else { time[i] - time[i - 1] };
-            let rate = model.balance.gain.re() * rate(drive, time, i);
-            let moved = state.q - before;
-            let [q, v] = model.senses([state.q, state.v, moved], [rate, dt], &mut memory);
-            before = state.q;
-            see(i, q, v, ends[0]);
+        // How fast the first velocity changes is told by the second.
+        let slope = |v: DualSVec64<P>| (state.v - v) / (time[i] - time[i - 1]);
+        let zero = DualSVec64::<P>::from(0.0);
+        match before {
+            Some([q, v, u]) if i == 1 => {
+                sensed(0, [q, v, zero, slope(v)], u);
+                sensed(1, [shown, state.v, shown - q, slope(v)], ends[0]);
+            }
+            Some([q, v, _]) => sensed(i, [shown, state.v, shown - q, slope(v)], ends[0]),
+            None if samples == 1 => sensed(0, [shown, state.v, zero, zero], ends[0]),
+            None => {}
         }
+        before = Some([shown, state.v, ends[0]]);
         if i + 1 < samples {
             let steps = &tape.steps[next..tape.until[i]];
             let dt: f64 = steps.iter().map(|s| s.h).sum();
@@ -112,7 +123,10 @@ impl<'a, const P: usize> Again<'a, P> {
     fn velocity(&mut self, stage: &Stage<DualSVec64<P>>, [v, way]: [f64; 2]) -> DualSVec64<P> {
         let sticks = self.model.sticks();
         if sticks && way == 0.0 {
-            return DualSVec64::from(0.0);
+            // What is beside the mass may move on.
+            let held = DualSVec64::from(0.0);
+            excess(self.model, &self.base, stage, (held, 0.0), &mut self.z);
+            return held;
         }
         let alone = DualSVec64::<P>::from_re(v).derivative(P - 1);
         let way = if sticks { way } else { 0.0 };

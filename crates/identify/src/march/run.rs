@@ -70,7 +70,7 @@ pub fn march(
     let mut walker = Walker::new(model, start, tolerance);
     let mut motion = Motion::default();
     for (i, t) in time.iter().enumerate() {
-        motion.q.push(walker.q);
+        motion.q.push(model.displacement(walker.q, &walker.z));
         motion.v.push(walker.v);
         let ends = inputs(drive, i, &motion.q, model.delay().map(|delay| (delay, time)));
         motion.u.push(ends[0]);
@@ -88,13 +88,19 @@ pub fn march(
 /// Turns displacement and velocity into what the sensors show of them.
 fn seen(model: &Model<f64>, drive: &Drive<'_>, time: &[f64], motion: &mut Motion) {
     let mut memory = vec![0.0; model.effects.len()];
-    let mut before = motion.q[0];
+    let (mut before, mut last) = (motion.q[0], motion.v[0]);
     for i in 0..motion.q.len() {
         let (q, v) = (motion.q[i], motion.v[i]);
         let dt = if i == 0 { 0.0 } else { time[i] - time[i - 1] };
         let rate = model.balance.gain * rate(drive, time, i);
-        [motion.q[i], motion.v[i]] = model.senses([q, v, q - before], [rate, dt], &mut memory);
-        before = q;
+        let slope = match (i, motion.v.get(1)) {
+            (0, Some(next)) => (next - v) / (time[1] - time[0]),
+            (0, None) => 0.0,
+            _ => (v - last) / dt,
+        };
+        let now = [q, v, q - before, slope];
+        [motion.q[i], motion.v[i]] = model.senses(now, [rate, dt], &mut memory);
+        (before, last) = (q, v);
     }
 }
 
@@ -166,6 +172,8 @@ struct Walker<'a> {
     model: &'a Model<f64>,
     probe: Model<Dual64>,
     tolerance: &'a Tolerance,
+    /// What a step may be wrong by in each state of contact and effects.
+    allowed: Vec<f64>,
     q: f64,
     v: f64,
     z: Vec<f64>,
@@ -193,6 +201,7 @@ impl<'a> Walker<'a> {
             model,
             probe: model.map(Dual64::from),
             tolerance,
+            allowed: model.allowed(tolerance),
             q: start.q,
             v: start.v,
             z: start.z.clone(),
@@ -358,9 +367,8 @@ impl<'a> Walker<'a> {
     fn error(&self, h: f64, [q_dot, v_dot]: [[f64; 3]; 2]) -> f64 {
         let weighed = |rates: [f64; 3]| h * (0..3).map(|s| ERROR[s] * rates[s]).sum::<f64>().abs();
         let mut worst = (weighed(q_dot) / self.tolerance.q).max(weighed(v_dot) / self.tolerance.v);
-        for i in 0..self.z.len() {
-            let size = self.tolerance.z * self.model.size(i);
-            worst = worst.max(weighed(std::array::from_fn(|s| self.z_dot[s][i])) / size);
+        for (i, allowed) in self.allowed.iter().enumerate() {
+            worst = worst.max(weighed(std::array::from_fn(|s| self.z_dot[s][i])) / allowed);
         }
         worst
     }

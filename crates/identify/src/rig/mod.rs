@@ -117,3 +117,17 @@ pub struct Effect {
     /// Its values by their keys, in SI units.
     pub values: BTreeMap<String, f64>,
 }
+
+impl Rig {
+    /// Whether motor and load are two masses in it.
+    pub fn two_masses(&self) -> bool {
+        let joins = |effect: &Effect| {
+            let amount = crate::effects::JOINTS.iter().find(|(name, _)| *name == effect.name);
+            amount.is_some_and(|(name, key)| {
+                effect.values.get(*key).is_some_and(|value| *value != 0.0)
+                    || self.free.contains(&format!("{name}.{key}"))
+            })
+        };
+        self.effects.iter().any(joins)
+    }
+}

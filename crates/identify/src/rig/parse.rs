@@ -349,6 +349,10 @@ fn effects(file: &Table, rig: &Rig) -> Result<Vec<Effect>, RigError> {
         if effects.iter().any(|effect: &Effect| effect.name == text) {
             return Err(name.invalid("each effect once"));
         }
+        let joint = |name: &str| crate::effects::JOINTS.iter().any(|(joint, _)| *joint == name);
+        if joint(text) && effects.iter().any(|effect| joint(&effect.name)) {
+            return Err(name.invalid("one joint between motor and load, backlash or compliance"));
+        }
         let about = kind.about();
         let names = about.keys.iter().map(|key| key.name);
         table.only(&["name"].into_iter().chain(names).collect::<Vec<&str>>())?;
