@@ -238,4 +238,14 @@ mod tests {
             );
         }
     }
+
+    #[test]
+    fn a_joint_between_motor_and_load_lends_no_force_to_a_displacement_that_is_the_loads() {
+        let joint =
+            "[[effect]]\nname = \"backlash\"\ngap = 1e-6\nratio = 0.2\nrubs = 0.01\nteeth = 1e-3\n";
+        let data = record(|_, _| 0.0);
+        let rigid = residual(&Rig::parse(RIG).unwrap(), &data, 1).unwrap();
+        let joined = residual(&Rig::parse(&format!("{RIG}{joint}")).unwrap(), &data, 1).unwrap();
+        assert_eq!(rigid, joined);
+    }
 }

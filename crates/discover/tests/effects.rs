@@ -20,7 +20,6 @@ const NOT_YET: &[&str] = &[
     "presliding",
     "maxwell_slip",
     "dwell_stiction",
-    "backlash",
     "compliance",
     "cable_slack",
 ];

@@ -38,6 +38,10 @@ pub fn observe(
     measured: &Measured<'_>,
     strength: f64,
 ) -> Option<Vec<f64>> {
+    // The measured displacement is the load's: no joint's motor is seen behind it, and both move as one.
+    let mut model = model.clone();
+    model.effects.retain(|e| !e.kind.joins(&e.p));
+    let model = &model;
     let mut probe = model.map(Dual64::from);
     probe.balance.damping += strength;
     if !measured.pull.is_empty() {
