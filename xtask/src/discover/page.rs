@@ -149,6 +149,11 @@ fn residual(told: &Told, pictures: &Pictures) -> FitPart {
     };
     let text = if figures.is_empty() {
         words(&["The model has no motion on this record."])
+    } else if told.model.two_masses() {
+        // The observer is driven by one measured displacement.
+        words(&[
+            "Motor and load count as one mass here: what their joint does is still in the last picture.",
+        ])
     } else {
         Vec::new()
     };
