@@ -1,6 +1,6 @@
 //! `backlash`: The load follows the motor only when a gap is used up.
 
-use super::{About, Act, At, Channel, Key, Law, Measure, family::is_joined, joint::Joint};
+use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::Joint};
 use crate::march::Real;
 
 /// The load follows the motor only when a gap is used up.
@@ -29,32 +29,13 @@ impl Law for Backlash {
         test: 0.1,
     };
     const STATES: usize = 2;
+    const JOINS: bool = true;
     const TRIED: &[f64] = &[3e-5, 3e-4, 3e-3, 3e-2];
 
-    fn joins<D: Real>(p: &[D]) -> bool {
-        p[0].re() > 0.0
+    fn joint<D: Real>(p: &[D], at: &At<D>) -> Option<Joint<D>> {
+        // Teeth that do not ring.
+        let mass = p[1] * at.mass;
+        let (stiffness, damping) = (mass / (p[3] * p[3]), mass * 2.0 / p[3]);
+        Some(Joint { mass, stiffness, damping, half: Some(p[0] * 0.5), rubs: p[2] })
     }
-
-    fn mass<D: Real>(p: &[D], mass: D) -> D {
-        if Self::joins(p) { mass / (p[1] + 1.0) } else { mass }
-    }
-
-    fn act<D: Real>(p: &[D], at: &At<D>, base: &[D], z: &mut [D]) -> Act<D> {
-        if !Self::joins(p) {
-            z.copy_from_slice(base);
-            return Act::none();
-        }
-        joint(p, at).act(at, base, z)
-    }
-
-    fn ahead<D: Real>(p: &[D], at: &At<D>, (way, off): (f64, D)) -> D {
-        joint(p, at).ahead(at, way, off)
-    }
-}
-
-/// Teeth that do not ring.
-fn joint<D: Real>(p: &[D], at: &At<D>) -> Joint<D> {
-    let mass = p[1] * at.mass;
-    let (stiffness, damping) = (mass / (p[3] * p[3]), mass * 2.0 / p[3]);
-    Joint { mass, stiffness, damping, half: Some(p[0] * 0.5), rubs: p[2] }
 }

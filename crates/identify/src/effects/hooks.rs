@@ -1,6 +1,6 @@
 //! Where an effect takes hold.
 
-use super::{About, Kind};
+use super::{About, Kind, joint::Joint};
 use crate::march::{Balance, Real};
 
 /// An instant of a motion, as a law sees it.
@@ -117,6 +117,9 @@ pub trait Law {
     /// Whether it is friction that can hold whatever the velocity does next.
     const DRY: bool = false;
 
+    /// Whether motor and load are two masses where its first value, the amount, is above 0. The second is then the
+    /// ratio of the load's mass to the motor's, and the states are displacement and speed of the load.
+    const JOINS: bool = false;
     /// The amounts at which it is tried, of their natural size, if it does not begin smoothly.
     const TRIED: &[f64] = &[];
 
@@ -150,15 +153,9 @@ pub trait Law {
         D::from(0.0)
     }
 
-    /// Whether motor and load are two masses; then the states are displacement and speed of the load.
-    fn joins<D: Real>(_p: &[D]) -> bool {
-        false
-    }
-
-    /// By how much the motor is then ahead of a load at `at`, that it drives the given `way` or holds at rest if that
-    /// is 0, and that may be off where it is driven by so many times the joint's size [m].
-    fn ahead<D: Real>(_p: &[D], _at: &At<D>, _how: (f64, D)) -> D {
-        D::from(0.0)
+    /// The joint between motor and load.
+    fn joint<D: Real>(_p: &[D], _at: &At<D>) -> Option<Joint<D>> {
+        None
     }
 
     /// What the sensors show.

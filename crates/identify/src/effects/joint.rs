@@ -12,16 +12,18 @@ use super::{Act, At};
 use crate::march::Real;
 
 /// A joint, and the load beyond it.
-pub(super) struct Joint<D> {
+#[derive(Debug, Clone, Copy)]
+pub struct Joint<D> {
     /// Mass of the load [kg].
-    pub(super) mass: D,
-    /// Stiffness of the joint where it touches [N/m], and its damping [N·s/m].
-    pub(super) stiffness: D,
-    pub(super) damping: D,
+    pub mass: D,
+    /// Stiffness of the joint where it touches [N/m].
+    pub stiffness: D,
+    /// Its damping [N·s/m].
+    pub damping: D,
     /// Half of its play [m]; none for a spring that never parts.
-    pub(super) half: Option<D>,
+    pub half: Option<D>,
     /// The load's own friction [N].
-    pub(super) rubs: D,
+    pub rubs: D,
 }
 
 /// The motion of the load in a stage, whatever the joint does.
@@ -50,7 +52,7 @@ impl<D: Real> Joint<D> {
 
     /// What the joint holds the motor back with [N], in place of springs and weight; the load's displacement and speed
     /// go to `z`.
-    pub(super) fn act(&self, at: &At<D>, base: &[D], z: &mut [D]) -> Act<D> {
+    pub(crate) fn act(&self, at: &At<D>, base: &[D], z: &mut [D]) -> Act<D> {
         let (x, w) = (base[0], base[1]);
         let (pull, slope) = Self::pull(at, x + w * at.dt);
         let free = Free { x, w, heavy: self.mass + slope * (at.dt * at.dt), pull, dt: at.dt };
@@ -111,7 +113,7 @@ impl<D: Real> Joint<D> {
     /// By how much the motor is ahead of a load that is driven along, or held at rest if `way` is 0 [m]. Sliding the
     /// `way` it goes, the motor's own friction takes its level. The load may be `off` its tooth by so many halves of
     /// the play, or off its place by what so many times the motor's friction does [1].
-    pub(super) fn ahead(&self, at: &At<D>, way: f64, off: D) -> D {
+    pub(crate) fn ahead(&self, at: &At<D>, (way, off): (f64, D)) -> D {
         let pull = Self::pull(at, at.q).0;
         let mut force = pull;
         if way != 0.0 {

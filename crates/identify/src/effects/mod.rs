@@ -13,6 +13,7 @@ mod joint;
 
 pub use about::{About, Channel, Context, Key, Measure, Shape, Sign};
 pub use hooks::{Act, At, Law, Load, Sense, Term};
+pub use joint::Joint;
 
 use crate::{Rig, march::Real};
 
@@ -110,17 +111,19 @@ macro_rules! effects {
                  }
             }
 
-            pub(crate) fn joins<D: Real>(self, p: &[D]) -> bool {
+            /// Whether it can part motor and load.
+            pub(crate) fn is_joint(self) -> bool {
                 match self {
-                    $(Self::$law => $module::$law::joins(p),)*
-                    $(Self::$hidden => $other::$hidden::joins(p),)*
+                    $(Self::$law => $module::$law::JOINS,)*
+                    $(Self::$hidden => $other::$hidden::JOINS,)*
                  }
             }
 
-            pub(crate) fn ahead<D: Real>(self, p: &[D], at: &At<D>, how: (f64, D)) -> D {
+            /// The joint between motor and load, where there is one.
+            pub(crate) fn joint<D: Real>(self, p: &[D], at: &At<D>) -> Option<Joint<D>> {
                 match self {
-                    $(Self::$law => $module::$law::ahead(p, at, how),)*
-                    $(Self::$hidden => $other::$hidden::ahead(p, at, how),)*
+                    $(Self::$law => $module::$law::joint(p, at),)*
+                    $(Self::$hidden => $other::$hidden::joint(p, at),)*
                  }
             }
 
@@ -173,15 +176,17 @@ effects! {
     map::Map,
 }
 
-/// The effects that part motor and load, each with the amount without which it does not.
-pub(crate) const JOINTS: [(&str, &str); 2] = [("backlash", "gap"), ("compliance", "compliance")];
-
 /// The wavenumbers of so many half periods over the record's stretch.
 fn wavenumbers(context: &Context, most: u32) -> Vec<Vec<f64>> {
     (1..=most).map(|j| vec![f64::from(j) * std::f64::consts::PI / context.span]).collect()
 }
 
 impl Kind {
+    /// Whether it parts motor and load with these values.
+    pub(crate) fn joins<D: Real>(self, p: &[D]) -> bool {
+        self.is_joint() && p[0].re() > 0.0
+    }
+
     /// The effect of this name.
     pub fn named(name: &str) -> Option<Self> {
         // A map has many hats, each with a number behind its name.

@@ -63,7 +63,9 @@ impl<D: Real> Model<D> {
 
     /// The mass [kg] that moves.
     pub(super) fn mass(&self) -> D {
-        self.effects.iter().fold(self.balance.mass, |mass, e| e.kind.mass(&e.p, mass))
+        self.effects.iter().fold(self.balance.mass, |mass, e| {
+            if e.kind.joins(&e.p) { mass / (e.p[1] + 1.0) } else { e.kind.mass(&e.p, mass) }
+        })
     }
 
     /// The number of states, the contact's and then the effects'.
@@ -134,14 +136,15 @@ impl<D: Real> Model<D> {
     }
 
     /// The motor's displacement [m] where the load's is `q` with the speed `v`, driven by the input `u` `how`
-    /// [`effects::Law::ahead`](crate::effects::Law::ahead) has it; the load's own goes to the states `z`.
+    /// [`Joint::ahead`](crate::effects::Joint::ahead) has it; the load's own goes to the states `z`.
     pub(crate) fn motor(&self, u: D, [q, v]: [D; 2], how: (f64, D), z: &mut [D]) -> D {
         let Some(first) = self.joint() else { return q };
         (z[first], z[first + 1]) = (q, v);
         let stage = Stage { t: 0.0, dt: 0.0, u };
         let at = self.at(&stage, self.driving(u), [q, v], &z[..self.contact.states()]);
         let joint = self.effects.iter().find(|e| e.kind.joins(&e.p));
-        joint.map_or(q, |e| q + e.kind.ahead(&e.p, &at, how))
+        let joint = joint.and_then(|e| e.kind.joint(&e.p, &at));
+        joint.map_or(q, |joint| q + joint.ahead(&at, how))
     }
 
     /// What the effects add to the friction, all together.
@@ -150,7 +153,14 @@ impl<D: Real> Model<D> {
         let mut first = 0;
         for e in &self.effects {
             let end = first + e.kind.states();
-            let act = e.kind.act(&e.p, at, &base[first..end], &mut z[first..end]);
+            let (base, z) = (&base[first..end], &mut z[first..end]);
+            let joint = e.kind.joint(&e.p, at).filter(|_| e.kind.joins(&e.p));
+            let act = if let Some(joint) = joint {
+                joint.act(at, base, z)
+            } else {
+                z.copy_from_slice(base);
+                e.kind.act(&e.p, at, base, z)
+            };
             all.force += act.force;
             all.more += act.more;
             all.skew += act.skew;

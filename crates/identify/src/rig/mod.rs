@@ -122,10 +122,11 @@ impl Rig {
     /// Whether motor and load are two masses in it.
     pub fn two_masses(&self) -> bool {
         let joins = |effect: &Effect| {
-            let amount = crate::effects::JOINTS.iter().find(|(name, _)| *name == effect.name);
-            amount.is_some_and(|(name, key)| {
-                effect.values.get(*key).is_some_and(|value| *value != 0.0)
-                    || self.free.contains(&format!("{name}.{key}"))
+            let kind = crate::effects::Kind::named(&effect.name).filter(|kind| kind.is_joint());
+            kind.is_some_and(|kind| {
+                let key = kind.about().keys[0].name;
+                effect.values.get(key).is_some_and(|value| *value != 0.0)
+                    || self.free.contains(&format!("{}.{key}", effect.name))
             })
         };
         self.effects.iter().any(joins)

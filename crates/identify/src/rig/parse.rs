@@ -349,7 +349,9 @@ fn effects(file: &Table, rig: &Rig) -> Result<Vec<Effect>, RigError> {
         if effects.iter().any(|effect: &Effect| effect.name == text) {
             return Err(name.invalid("each effect once"));
         }
-        let joint = |name: &str| crate::effects::JOINTS.iter().any(|(joint, _)| *joint == name);
+        let joint = |name: &str| {
+            crate::effects::Kind::named(name).is_some_and(crate::effects::Kind::is_joint)
+        };
         if joint(text) && effects.iter().any(|effect| joint(&effect.name)) {
             return Err(name.invalid("one joint between motor and load, backlash or compliance"));
         }
