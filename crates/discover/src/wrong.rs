@@ -73,10 +73,13 @@ fn near(minimum: &Minimum<'_>, rig: &Rig, i: usize) -> Option<(f64, f64)> {
             let at = free.variable(given);
             (at, 2.0 * OFF * at)
         }
+        // Along the line through the minimum: a given value below the other has no place on the logarithmic scale.
         Scale::Above(_) => {
             let below = rig.value("f_c").unwrap_or(0.0);
-            let above = (given - below).max(OFF * given);
-            (free.variable(above), OFF * given.hypot(below) / above)
+            let found = free.value(minimum.x[i]);
+            let slope = free.slope(found);
+            let at = minimum.x[i] + (given - below - found) / slope;
+            (at, OFF * given.hypot(below) / slope)
         }
     };
     at.is_finite().then_some((at, spread.powi(-2)))
@@ -108,8 +111,12 @@ fn cost(minimum: &Minimum<'_>, nominal: &[Option<(f64, f64)>], loose: &[usize]) 
 
 #[cfg(test)]
 mod tests {
-    use super::drag;
-    use identify::Rig;
+    use super::{Minimum, drag, wrong};
+    use identify::{
+        Hold, Rig,
+        fit::{Data, data::Seen, problem::Problem, starts},
+    };
+    use nalgebra::DMatrix;
 
     #[test]
     fn viscous_friction_is_no_better_known_than_the_motors_damping() {
@@ -122,5 +129,43 @@ mod tests {
         assert!((rms / (0.02 * 0.02 * 5.0_f64.sqrt()) - 1.0).abs() < 1e-12, "{rms}");
         assert!((most / (0.02 * 0.06) - 1.0).abs() < 1e-12, "{most}");
         assert_eq!(drag(&rig, "f_c"), [0.0; 2]);
+    }
+
+    #[test]
+    fn a_stiction_that_is_given_below_the_sliding_friction_is_wrong() {
+        let rig = |f_s: f64| {
+            let text = format!(
+                "title = \"a\"\n[plant]\nkind = \"axis\"\ninertia = 16.0\ngain = 35.0\n[friction]\n\
+                 name = \"lugre\"\nf_c = 19.0\nf_s = {f_s:?}\nv_s = 0.01\nsigma_0 = 1e6\nsigma_1 = 5e3\n\
+                 sigma_2 = 120.0\n[fit]\nfree = [\"f_c\", \"f_s\"]\n[channels]\ntime = \"t\"\n\
+                 voltage = \"u\"\nposition = \"q\"\n"
+            );
+            Rig::parse(&text).unwrap()
+        };
+        let time: Vec<f64> = (0..400).map(|i| 0.005 * f64::from(i)).collect();
+        let wave = |t: &f64| (3.0 * t).sin();
+        let data = Data {
+            input: time.iter().map(wave).collect(),
+            hold: Hold::ZeroOrder,
+            displacement: Some(Seen::new("position", time.iter().map(wave).collect(), 0.0)),
+            velocity: None,
+            force: None,
+            loads: None,
+            reference: Vec::new(),
+            added: Vec::new(),
+            time,
+        };
+        let (given, fitted) = (rig(15.0), rig(29.0));
+        let problem = Problem::of(&fitted, &data).unwrap();
+        let x = starts::nominal(&problem);
+        let place = |name: &str| problem.free.iter().position(|free| free.name == name).unwrap();
+        let names = [place("f_c"), place("f_s")];
+        // Both are known to a millionth.
+        let curvature = DMatrix::from_diagonal_element(2, 2, 1e12);
+        let found =
+            wrong(&Minimum { problem: &problem, x: &x, curvature: curvature.clone() }, &given);
+        assert_eq!(found, [names[1]]);
+        let near = rig(28.6);
+        assert!(wrong(&Minimum { problem: &problem, x: &x, curvature }, &near).is_empty());
     }
 }
