@@ -119,8 +119,11 @@ macro_rules! effects {
                  }
             }
 
-            /// The joint between motor and load, where there is one.
+            /// The joint between motor and load, where these values part them.
             pub(crate) fn joint<D: Real>(self, p: &[D], at: &At<D>) -> Option<Joint<D>> {
+                if !self.joins(p) {
+                    return None;
+                }
                 match self {
                     $(Self::$law => $module::$law::joint(p, at),)*
                     $(Self::$hidden => $other::$hidden::joint(p, at),)*

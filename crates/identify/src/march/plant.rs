@@ -142,8 +142,7 @@ impl<D: Real> Model<D> {
         (z[first], z[first + 1]) = (q, v);
         let stage = Stage { t: 0.0, dt: 0.0, u };
         let at = self.at(&stage, self.driving(u), [q, v], &z[..self.contact.states()]);
-        let joint = self.effects.iter().find(|e| e.kind.joins(&e.p));
-        let joint = joint.and_then(|e| e.kind.joint(&e.p, &at));
+        let joint = self.effects.iter().find_map(|e| e.kind.joint(&e.p, &at));
         joint.map_or(q, |joint| q + joint.ahead(&at, how))
     }
 
@@ -154,8 +153,7 @@ impl<D: Real> Model<D> {
         for e in &self.effects {
             let end = first + e.kind.states();
             let (base, z) = (&base[first..end], &mut z[first..end]);
-            let joint = e.kind.joint(&e.p, at).filter(|_| e.kind.joins(&e.p));
-            let act = if let Some(joint) = joint {
+            let act = if let Some(joint) = e.kind.joint(&e.p, at) {
                 joint.act(at, base, z)
             } else {
                 z.copy_from_slice(base);
