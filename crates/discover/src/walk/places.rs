@@ -2,6 +2,7 @@
 
 use super::Walk;
 use crate::{board::Fitted, verdict::Share};
+use identify::fit::Data;
 
 /// The parts of a record, and the states of a motion.
 const THIRDS: [&str; 3] = ["first third", "second third", "last third"];
@@ -12,6 +13,9 @@ const SLOW: f64 = 0.01;
 
 /// So many samples after a rest a motion still breaks away.
 const AFTER: usize = 10;
+
+/// So many samples to either side tell the velocity where it was not measured.
+const BESIDE: usize = 2;
 
 /// So little of a sample's noise is no excess.
 const NONE: f64 = 0.1;
@@ -53,17 +57,22 @@ impl Walk<'_> {
                 let row = if imposed { sample } else { i * channels };
                 let Some(rows) = piece.residuals.get(row..row + channels) else { continue };
                 let above = rows.iter().map(|r| r * r - 1.0).sum();
-                let velocity = if imposed {
-                    let next = (sample + 1).min(data.input.len() - 1);
-                    data.input[next] - data.input[sample.saturating_sub(1)]
-                } else {
-                    piece.motion.v.get(i).copied().unwrap_or(0.0)
-                };
-                all.push(Excess { sample, velocity, above });
+                all.push(Excess { sample, velocity: velocity(data, sample), above });
             }
         }
         all
     }
+}
+
+/// The velocity of the record at a sample, as measured or as its displacement shows it: a model that lacks something
+/// may stick where the plant moves.
+fn velocity(data: &Data, sample: usize) -> f64 {
+    if let Some(seen) = &data.velocity {
+        return seen.values[sample];
+    }
+    let moved = data.displacement.as_ref().map_or(&data.input, |seen| &seen.values);
+    let (before, after) = (sample.saturating_sub(BESIDE), (sample + BESIDE).min(moved.len() - 1));
+    (moved[after] - moved[before]) / (data.time[after] - data.time[before])
 }
 
 /// The state of the motion at every sample, as a place in [`STATES`].
@@ -101,7 +110,8 @@ fn summed<const N: usize>(
 
 #[cfg(test)]
 mod tests {
-    use super::{Excess, STATES, states, summed};
+    use super::{Data, Excess, STATES, states, summed, velocity};
+    use identify::{Hold, fit::Seen};
 
     #[test]
     fn a_motion_rests_breaks_away_and_slides_forth_and_back() {
@@ -117,6 +127,27 @@ mod tests {
         let of = |i: usize| shares[i].share * 17.0;
         let expected = [2.0, 10.0, 3.0, 2.0];
         assert!((0..4).all(|i| (of(i) - expected[i]).abs() < 1e-9), "{shares:?}");
+    }
+
+    #[test]
+    fn a_motion_is_seen_in_the_record_whatever_a_model_does() {
+        let time: Vec<f64> = (0..9).map(|i| 0.1 * f64::from(i)).collect();
+        let at = |t: &f64| 3.0 * t;
+        let data = Data {
+            input: vec![0.0; 9],
+            hold: Hold::ZeroOrder,
+            displacement: Some(Seen::new("angle", time.iter().map(at).collect(), 0.0)),
+            velocity: None,
+            force: None,
+            loads: None,
+            reference: Vec::new(),
+            added: Vec::new(),
+            time,
+        };
+        let all = (0..9).map(|sample| velocity(&data, sample));
+        assert!(all.into_iter().all(|v| (v - 3.0).abs() < 1e-12));
+        let measured = Seen::new("speed", vec![2.0; 9], 0.0);
+        assert_eq!(velocity(&Data { velocity: Some(measured), ..data }, 4), 2.0);
     }
 
     #[test]
