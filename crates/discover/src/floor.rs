@@ -1,21 +1,30 @@
 //! What noise alone leaves: that of the sensors, and that of the recorded input on its way through the model.
 
-use crate::board::{Board, Fitted};
+use crate::{
+    board::{Board, Fitted},
+    maps,
+};
 use identify::{
     Rig,
-    fit::{Data, FitError, models, problem::Piece},
+    fit::{
+        Data, FitError, data::Seen, models, problem::Piece, whitening::Whitening, window::Window,
+    },
     march::Feedback,
 };
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// How many times the input is perturbed by its own noise.
 const TIMES: u64 = 4;
 
-/// The steps with which its way is followed, of the spans [1].
+/// What a noise of the input moves shows with long steps, too: those with which its way is followed, of the spans [1].
 const ENOUGH: f64 = 1e-5;
+
+/// The noise of the input is carried by hats over so many samples each: within fewer it hardly moves a mass.
+const HAT: usize = 15;
 
 /// How many samples to either side tell of one sample's spread.
 const AROUND: usize = 5;
@@ -31,9 +40,7 @@ pub(crate) fn spread(
     if noise <= 0.0 {
         return Ok(Vec::new());
     }
-    // What noise moves shows with long steps, too, if both motions have them.
-    let board =
-        &Board { tolerance: board.tolerance.max(ENOUGH), spread: Vec::new(), ..board.clone() };
+    let board = &Board { spread: Vec::new(), ..board.clone() };
     let rig = fitted.held();
     let problem = board.problem(&rig, |_| true)?;
     let here = models::settled(&problem, &[], Some(&fitted.pieces), 1);
@@ -58,6 +65,50 @@ pub(crate) fn spread(
         [0, 1].map(|c| ((sum[high][c] - sum[low][c]).max(0.0) / count).sqrt())
     };
     Ok((0..n).map(local).collect())
+}
+
+/// What makes the residuals of every window independent of each other: on its way through the model the noise of the
+/// input, white as it is, moves many samples at once. It is carried by hats over time, of which each has the variance
+/// of the mean over its samples.
+pub(crate) fn whitened(
+    board: &Board<'_>,
+    fitted: &Fitted,
+) -> Result<Vec<Option<Arc<Whitening>>>, FitError> {
+    let noise = noise_of_input(board.data, &fitted.rig);
+    if noise <= 0.0 {
+        return Ok(vec![None; board.windows.len()]);
+    }
+    let board = &Board { tolerance: board.tolerance.max(ENOUGH), ..board.clone() };
+    let held = fitted.held();
+    let gain = identify::fit::binding::model::<f64>(&held, &|_| None).balance.gain;
+    let one = |(window, piece): (&Window, &Piece)| {
+        let (rig, width) = with_hats(&held, board, window);
+        let problem = board.problem(&rig, |_| false)?;
+        let n = problem.free.len();
+        let own = Window { whitening: None, ..window.clone() };
+        let slopes = problem.slopes(&vec![0.0; n], &own, piece).jacobian;
+        let mut columns = slopes.rows(0, own.len() * problem.channels()).into_owned();
+        let deviation = gain.abs() * noise / (width / board.data.sample_time()).sqrt();
+        for (mut column, free) in columns.column_iter_mut().zip(&problem.free) {
+            column *= deviation / free.slope(0.0);
+        }
+        Ok(Whitening::of(&columns).map(Arc::new))
+    };
+    board.windows.par_iter().zip(&fitted.pieces).map(one).collect()
+}
+
+/// `rig` with a free force over each of the hats of a window, none of them there yet; and how far apart these are [s].
+fn with_hats(rig: &Rig, board: &Board<'_>, window: &Window) -> (Rig, f64) {
+    let time = &board.data.time[window.first..window.end];
+    let (first, last) = (time[0], time[time.len() - 1]);
+    let count = (time.len() / HAT).max(2);
+    let width = (last - first) / (count - 1) as f64;
+    let mut rig = rig.clone();
+    for i in 0..count {
+        let center = first + width * i as f64;
+        maps::add_hat(&mut rig, i, (0, center, width));
+    }
+    (rig, width)
 }
 
 /// Standard deviation of the noise of the recorded input. A controller's command jumps with every step of its encoder,
@@ -132,36 +183,88 @@ pub(crate) fn timed(data: &Data, spread: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 /// Differences beyond so many standard deviations are no noise.
 const OUTLYING: f64 = 4.0;
 
+/// From this order on the differences of an encoder are so many steps that their middle says enough.
+const FINE: usize = 7;
+
+/// The median size of a normal variable is so much of its standard deviation.
+const MIDDLE: f64 = 0.674_489_750_196_082;
+
+/// The signal of an encoder is the same as before for more than one sample in so many.
+const OFTEN: usize = 10;
+
+/// A signal that has come so many standard deviations moves, and hardly ever if for fewer than one sample in so many.
+const MOVED: f64 = 4.0;
+const SELDOM: usize = 50;
+
 /// Of what the middle difference or the step of an encoder says at least so much shows.
 const SHOWN: f64 = 0.7;
 
 /// Standard deviation of the white noise on a smooth signal, from its third and fifth differences, by their root
 /// mean square where the middle one would see only the steps of an encoder; `least` is that of the middle one.
-pub(crate) fn noise(values: &[f64], least: f64) -> f64 {
-    let mut differences = values.to_vec();
+pub(crate) fn noise(seen: &Seen, least: f64) -> f64 {
+    let values = &seen.values;
+    let mut differences = values.clone();
     let mut found = f64::INFINITY;
-    for order in 1..=5 {
+    let rests = values.windows(2).filter(|w| w[0] == w[1]).count();
+    let stepped = rests > values.len() / OFTEN;
+    for order in 1..=9 {
         differences = differences.windows(2).map(|w| w[1] - w[0]).collect();
         // The sum of the squares of a difference's coefficients.
         let sum: f64 = match order {
             3 => 20.0,
             5 => 252.0,
+            7 => 3432.0,
+            9 => 48_620.0,
             _ => continue,
         };
-        let most = OUTLYING * least * sum.sqrt();
-        let near = differences.iter().filter(|d| d.abs() <= most);
-        let (count, squares) = near.fold((0.0, 0.0), |(n, s), d| (n + 1.0, s + d * d));
-        if count > 0.0 {
-            found = found.min((squares / count / sum).sqrt());
+        let far = if stepped { MOVED * least } else { f64::NEG_INFINITY };
+        let seen = moving(&differences, values, far);
+        let one = if order < FINE {
+            by_squares(&seen, OUTLYING * least * f64::sqrt(sum))
+        } else {
+            by_middle(seen)
+        };
+        let one = one / sum.sqrt();
+        if one > SHOWN * least {
+            found = found.min(one);
         }
     }
     // A signal that changes by less than a step from sample to sample shows no noise at all.
-    if found.is_finite() && found > SHOWN * least { found } else { least }
+    let found = if found.is_finite() { found } else { least };
+    found.max(seen.quantum / 12.0_f64.sqrt())
+}
+
+/// The differences where the signal moves by more than this `far` while they are taken: within a step of an encoder
+/// nothing is seen of its noise. All of them where it hardly ever does.
+fn moving(differences: &[f64], values: &[f64], far: f64) -> Vec<f64> {
+    let order = values.len() - differences.len();
+    let moves = |(i, _): &(usize, &f64)| (values[*i + order] - values[*i]).abs() > far;
+    let found: Vec<f64> = differences.iter().enumerate().filter(moves).map(|(_, d)| *d).collect();
+    if found.len() > differences.len() / SELDOM { found } else { differences.to_vec() }
+}
+
+/// The root mean square of all values but those beyond the `most`.
+fn by_squares(values: &[f64], most: f64) -> f64 {
+    let near = values.iter().filter(|d| d.abs() <= most);
+    let (count, squares) = near.fold((0.0_f64, 0.0), |(n, s), d| (n + 1.0, s + d * d));
+    (squares / count.max(1.0)).sqrt()
+}
+
+/// The standard deviation of a normal variable whose middle size is that of the values.
+fn by_middle(mut values: Vec<f64>) -> f64 {
+    let middle = values.len() / 2;
+    if values.is_empty() {
+        return 0.0;
+    }
+    for value in &mut values {
+        *value = value.abs();
+    }
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1 / MIDDLE
 }
 
 #[cfg(test)]
 mod tests {
-    use super::noise;
+    use super::{ChaCha8Rng, Distribution, SeedableRng, Seen, StandardNormal, noise};
 
     #[test]
     fn the_noise_of_an_encoder_is_that_of_its_steps() {
@@ -169,11 +272,27 @@ mod tests {
         let values: Vec<f64> =
             (0..20_000).map(|i| (300.0 * (0.013 * f64::from(i)).sin()).round()).collect();
         let median = identify::doctor::noise(&values);
-        let found = noise(&values, median);
+        let found = noise(&Seen::new("angle", values, 1.0), median);
         let truth = 1.0 / 12f64.sqrt();
         assert!(
             (found / truth - 1.0).abs() < 0.05,
             "{found}, by the median {median}, in truth {truth}"
         );
+    }
+
+    #[test]
+    fn rests_and_corners_of_a_motion_are_no_noise() {
+        // Forth and back with rests between, seen in steps of 1 that tremble by a fifth.
+        let mut random = ChaCha8Rng::seed_from_u64(3);
+        let mut tremble = || {
+            let drawn: f64 = StandardNormal.sample(&mut random);
+            0.2 * drawn
+        };
+        let way = |i: u32| 400.0 * (0.01 * f64::from(i % 1000)).min(3.0).sin();
+        let values: Vec<f64> = (0..20_000).map(|i| (way(i) + tremble()).round()).collect();
+        let median = identify::doctor::noise(&values);
+        let found = noise(&Seen::new("position", values, 1.0), median);
+        let truth = 0.2_f64.hypot(1.0 / 12f64.sqrt());
+        assert!((found / truth - 1.0).abs() < 0.1, "{found}, in truth {truth}");
     }
 }

@@ -100,11 +100,11 @@ fn amounts(kind: Kind) -> usize {
 }
 
 impl Gram {
-    /// Of a fitted model and all that it may lack.
+    /// Of a fitted model and all that it may lack; what does not begin smoothly is tried at so many amounts at most.
     pub(crate) fn of(
         board: &Board<'_>,
         fitted: &Fitted,
-        context: &Context,
+        (context, most): (&Context, usize),
     ) -> Result<Self, FitError> {
         let lacking = lacking(board, &fitted.rig, context);
         let own = board.problem(&fitted.rig, |_| true)?;
@@ -147,7 +147,7 @@ impl Gram {
         }
         let residuals = residuals(board, &own, &fitted.x, &fitted.pieces);
         for (kind, probe) in &begun {
-            for tried in kind.tried() {
+            for tried in kind.tried().iter().take(most) {
                 let (size, moved) = tried_at(board, fitted, (*kind, probe, *tried), context)?;
                 let values = values_of(*kind, probe);
                 probes.push(Probe { kind: *kind, values, columns: vec![place], sizes: vec![size] });

@@ -47,11 +47,7 @@ pub(crate) fn maps(
         let at: Vec<f64> = (0..HATS).map(|i| low + width * i as f64).collect();
         let mut rig: Rig = fitted.rig.clone();
         for (i, center) in at.iter().enumerate() {
-            let values =
-                [("amount", 0.0), ("axis", axis as f64), ("center", *center), ("width", width)];
-            let values = values.iter().map(|(key, v)| ((*key).to_owned(), *v)).collect();
-            rig.effects.push(Effect { name: format!("map-{i}"), values });
-            rig.free.push(format!("map-{i}.amount"));
+            add_hat(&mut rig, i, (axis, *center, width));
         }
         let gram = Gram::of_rig(board, fitted, &rig)?;
         let (by, gain, left) = screen::joint(&gram, &board.trains);
@@ -60,6 +56,14 @@ pub(crate) fn maps(
     }
     all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     Ok(all)
+}
+
+/// Adds the `i`-th free force of a map, around one place of an axis, to a rig; it is not there yet.
+pub(crate) fn add_hat(rig: &mut Rig, i: usize, (axis, center, width): (usize, f64, f64)) {
+    let values = [("amount", 0.0), ("axis", axis as f64), ("center", center), ("width", width)];
+    let values = values.iter().map(|(key, v)| ((*key).to_owned(), *v)).collect();
+    rig.effects.push(Effect { name: format!("map-{i}"), values });
+    rig.free.push(format!("map-{i}.amount"));
 }
 
 /// From where to where each axis goes.

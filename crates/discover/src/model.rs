@@ -101,6 +101,38 @@ fn begin(problem: &Problem<'_>, fitted: &Fitted, scored: &Scored) -> Vec<f64> {
 /// What a parameter may change by, in its logarithm, when an effect that it had taken up is given its own name.
 const FAR: f64 = 3.0;
 
+/// A refit that changes a parameter by so much, in its logarithm, may have made up for what is missing.
+const DRAGGED: f64 = 0.5;
+
+/// Whether what is missing may have dragged a parameter of a model away from where it was.
+pub(crate) fn dragged(rig: &Rig, from: &Rig) -> bool {
+    let far = |name: &String| match (rig.value(name), from.value(name)) {
+        (Some(now), Some(then)) if then > 0.0 => !(now > 0.0 && (now / then).ln().abs() < DRAGGED),
+        _ => false,
+    };
+    rig.free.iter().any(far)
+}
+
+/// Whether a parameter of a model is not absurd beside what it is in another.
+fn near(name: &str, rig: &Rig, other: &Rig) -> bool {
+    match (rig.value(name), other.value(name)) {
+        (Some(now), Some(then)) if then > 0.0 && now > 0.0 && name != "v_s" && name != "f_s" => {
+            (now / then).ln().abs() < FAR
+        }
+        _ => true,
+    }
+}
+
+/// The free parameters of a model that are no effect's.
+fn nominal(rig: &Rig) -> impl Iterator<Item = &String> {
+    rig.free.iter().filter(|name| !name.contains('.'))
+}
+
+/// Whether no parameter of a model is absurd beside what it is in another.
+pub(crate) fn reasonable(rig: &Rig, other: &Rig) -> bool {
+    nominal(rig).all(|name| near(name, rig, other))
+}
+
 /// Whether every value has a plausible sign and size, and no nominal parameter went to one that is absurd beside those
 /// of all `others`.
 pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig]) -> bool {
@@ -117,15 +149,7 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
         };
         sign && value.is_finite() && (key.shape != Shape::Amount || value.abs() <= key.most * size)
     });
-    let near = |name: &str, other: &Rig| match (rig.value(name), other.value(name)) {
-        (Some(now), Some(then)) if then > 0.0 && now > 0.0 && name != "v_s" && name != "f_s" => {
-            (now / then).ln().abs() < FAR
-        }
-        _ => true,
-    };
-    let nominal = rig.free.iter().filter(|name| !name.contains('.'));
-    let kept = nominal.into_iter().all(|name| others.iter().any(|other| near(name, other)));
-    own && kept
+    own && nominal(rig).all(|name| others.iter().any(|other| near(name, rig, other)))
 }
 
 /// The sizes of a record, in which effects are measured.

@@ -21,6 +21,7 @@ const NOT_YET: &[&str] = &[
     "maxwell_slip",
     "dwell_stiction",
     "compliance",
+    "backlash",
     "cable_slack",
 ];
 

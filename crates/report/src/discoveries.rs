@@ -57,7 +57,10 @@ pub(crate) fn told(summary: &Summary, row: &DiscoveryRow) -> Vec<(&'static str, 
         ("Rig", row.rig.clone()),
         ("Answer", said(&row.verdict, &row.names)),
         ("Hidden", said(&row.truth, &row.hidden)),
-        ("Where the excess is", if over { shares.join(", ") } else { String::new() }),
+        (
+            "Where the excess is (each share to about 10 %)",
+            if over { shares.join(", ") } else { String::new() },
+        ),
     ];
     told.retain(|(_, text)| !text.is_empty());
     told

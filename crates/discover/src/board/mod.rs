@@ -4,14 +4,16 @@ mod loose;
 mod steps;
 
 pub(crate) use loose::{loose, loosened};
-pub(crate) use steps::{COARSE, FINE};
+pub(crate) use steps::{FINE, ROUGH};
 
 use identify::{
     Rig,
     fit::{
-        Data, FitError, Seen, blocks, models,
+        Data, FitError, Seen, blocks,
+        descent::descend,
+        models,
         problem::{Piece, Problem, Weights},
-        search::{Patience, descend},
+        search::Patience,
         starts,
         window::Window,
     },
@@ -70,26 +72,32 @@ pub(crate) const SOFT: f64 = 4.0;
 /// The same for the motion along which derivatives are taken.
 const SLOPES: f64 = 1e-4;
 
+/// A start is known well if a parabola fits the samples around it but for so many times their noise.
+const SMOOTH: f64 = 3.0;
+
 /// The sample around `about` at which the plant has come furthest since it last turned, so that the contact's state
-/// there is known; at most `room` samples away.
+/// there is known, and moves smoothly if it does so anywhere; at most `room` samples away.
 fn settled(data: &Data, about: usize, room: usize) -> usize {
     let stride = (room / 6).max(1);
     let end = (about + room + 1).min(data.time.len() - 8);
     let candidates = (about.saturating_sub(room)..end).step_by(stride);
     let far = |i: usize| Window::new(data, i, (i + 16).min(data.time.len())).run_up.abs();
-    let best = candidates.map(|i| (far(i), i)).max_by(|a, b| a.0.total_cmp(&b.0));
-    best.filter(|(far, _)| *far > 0.0).map_or(about, |(_, i)| i)
+    let all: Vec<(f64, usize)> = candidates.map(|i| (far(i), i)).collect();
+    let furthest = |smooth: bool| {
+        let fits = |i: usize| !smooth || Window::smooth(data, i) < SMOOTH;
+        let all = all.iter().filter(|(far, i)| *far > 0.0 && fits(*i));
+        all.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, i)| *i)
+    };
+    furthest(true).or_else(|| furthest(false)).unwrap_or(about)
 }
 
 /// The noise of the channels.
 fn noises(data: &Data, least: Weights) -> Weights {
     let of = |seen: &Option<Seen>, least: f64| {
-        seen.as_ref().map_or(least, |seen| crate::floor::noise(&seen.values, least))
+        seen.as_ref().map_or(least, |seen| crate::floor::noise(seen, least))
     };
     let cell = |i: usize| {
-        data.loads
-            .as_ref()
-            .map_or(least.loads[i], |l| crate::floor::noise(&l[i].values, least.loads[i]))
+        data.loads.as_ref().map_or(least.loads[i], |l| crate::floor::noise(&l[i], least.loads[i]))
     };
     Weights {
         displacement: of(&data.displacement, least.displacement),
@@ -214,7 +222,11 @@ impl<'a> Board<'a> {
         patience: &Patience,
     ) -> Result<Fitted, FitError> {
         let problem = self.problem(rig, |k| self.trains[k])?;
-        let softened = from.map(|(_, pieces)| self.softened(pieces));
+        // A driven motion's windows are worth their logarithms in the search itself.
+        let softened = match from {
+            Some((_, [piece])) if self.imposed() => Some(self.softened(piece)),
+            _ => None,
+        };
         let spread = softened.as_deref().unwrap_or(problem.spread);
         let problem = Problem { spread, ..problem };
         if problem.free.is_empty() {
@@ -258,24 +270,17 @@ impl<'a> Board<'a> {
         Ok((with_values(rig, &problem, &found.x), found.pieces.iter().map(logarithm).sum()))
     }
 
-    /// The spread with what a model still leaves of each window: one that is far off, for whatever reason, must not
-    /// decide over all others, and every window is worth its logarithm.
-    fn softened(&self, pieces: &[Piece]) -> Vec<[f64; 2]> {
+    /// The spread of an imposed motion's force with what a model still leaves of each window: one that is far off, for
+    /// whatever reason, must not decide over all others, and every window is worth its logarithm.
+    fn softened(&self, piece: &Piece) -> Vec<[f64; 2]> {
         let mut spread = self.spread.clone();
         spread.resize(self.data.time.len(), [0.0; 2]);
-        let first = if self.imposed() { self.weights.force } else { self.weights.displacement };
-        for (w, window) in self.windows.iter().enumerate() {
-            let rows = match (self.imposed(), pieces) {
-                (true, [piece]) => &piece.residuals[window.first..window.end],
-                (false, pieces) => &pieces[w].residuals,
-                _ => continue,
-            };
+        for window in &self.windows {
+            let rows = &piece.residuals[window.first..window.end];
             let mean = rows.iter().map(|r| r * r).sum::<f64>() / rows.len().max(1) as f64;
             if mean.is_finite() && mean > SOFT {
-                for own in &mut spread[window.first..window.end] {
-                    let grown =
-                        |own: f64, weight: f64| own.hypot((mean - 1.0).sqrt() * own.hypot(weight));
-                    *own = [grown(own[0], first), grown(own[1], self.weights.velocity)];
+                for [own, _] in &mut spread[window.first..window.end] {
+                    *own = own.hypot((mean - 1.0).sqrt() * own.hypot(self.weights.force));
                 }
             }
         }
@@ -289,8 +294,15 @@ impl<'a> Board<'a> {
 
     /// Counts the noise of the input anew, on its way through this model.
     pub(crate) fn refloor(&mut self, fitted: &Fitted, seed: u64) -> Result<(), FitError> {
-        let more = crate::floor::spread(self, fitted, seed)?;
-        self.spread = crate::floor::timed(self.data, more);
+        if self.imposed() {
+            let more = crate::floor::spread(self, fitted, seed)?;
+            self.spread = crate::floor::timed(self.data, more);
+            return Ok(());
+        }
+        let all = crate::floor::whitened(self, fitted)?;
+        for (window, whitening) in self.windows.iter_mut().zip(all) {
+            window.whitening = whitening;
+        }
         Ok(())
     }
 

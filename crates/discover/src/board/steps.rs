@@ -9,10 +9,10 @@ pub(super) const LONGEST: f64 = 1e-2;
 /// What the steps may be wrong by, of the spans: the coarsest is taken with which the motion is right.
 const TOLERANCES: [f64; 7] = [LONGEST, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 
-/// By how much of the noise nine tenths of the samples may be off because of the steps, while effects are compared
-/// and at last.
-pub(crate) const COARSE: f64 = 0.6;
-pub(crate) const FINE: f64 = 0.3;
+/// By how much of the noise nine tenths of the samples may be off because of the steps: while effects are looked at far
+/// from the floor, and else.
+pub(crate) const ROUGH: f64 = 0.6;
+pub(crate) const FINE: f64 = 0.2;
 
 /// One block in so many is looked at for that.
 const LOOKED_AT: usize = 4;
@@ -83,7 +83,7 @@ impl Board<'_> {
     }
 
     /// The mean squared residual on the training blocks, by their logarithms [1].
-    fn trained_level(&self, fitted: &Fitted) -> f64 {
+    pub(crate) fn trained_level(&self, fitted: &Fitted) -> f64 {
         let samples = self.samples();
         let trained: Vec<f64> = (0..self.trains.len())
             .filter(|k| self.trains[*k])

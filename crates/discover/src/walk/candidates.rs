@@ -1,6 +1,6 @@
 //! The effects that are worth a refit, and what a refit makes of them.
 
-use super::{GROSS, LEAST, NOTHING, Walk};
+use super::{GROSS, LEAST, NOTHING, Walk, tries};
 use crate::{
     board::Fitted,
     decide::{Judged, shrink},
@@ -32,9 +32,12 @@ const FEW: usize = 2;
 const FOLLOWED: usize = 3;
 const ENDS: f64 = 1.5;
 
+/// What leaves so many times what another does that comes down to the floor is not followed.
+const HOPELESS: f64 = 10.0;
+
 impl Walk<'_> {
     /// The effects worth a refit, each refitted as far as a glance goes: from where the model is and, where that is
-    /// far off, from where it was before its own refit as well.
+    /// far off or was dragged far, from where it was before its own refit as well.
     pub(super) fn candidates(
         &self,
         context: &Context,
@@ -42,13 +45,15 @@ impl Walk<'_> {
         (round, start): (usize, Option<&Gram>),
     ) -> Result<Vec<Candidate>, FitError> {
         let now = self.judged(&self.best.blocks);
-        let far = round == 0 && now.level() > GROSS;
+        let lost = now.level() > GROSS
+            || (now.level() > NOTHING && model::dragged(&self.best.rig, &self.origin.rig));
+        let far = round == 0 && lost;
         let points = if far { vec![&self.origin, &self.best] } else { vec![&self.best] };
         let mut all: Vec<Candidate> = Vec::new();
         for (place, point) in points.iter().enumerate() {
             let gram = match start {
                 Some(gram) if place + 1 == points.len() => gram.clone(),
-                _ => Gram::of(&self.board, point, context)?,
+                _ => Gram::of(&self.board, point, (context, tries(&now)))?,
             };
             let there = self.judged(&point.blocks);
             let mut short = self.short_list(&gram, &there, context, options);
@@ -121,10 +126,12 @@ impl Walk<'_> {
         let mut rated: Vec<(f64, Candidate)> =
             candidates.into_iter().map(|c| (self.judged(&c.fitted.blocks).level(), c)).collect();
         rated.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let near = ENDS * rated.first().map_or(0.0, |(level, _)| *level);
+        let best = rated.first().map_or(0.0, |(level, _)| *level);
+        // Where one comes down to the floor, what is far above it will not.
+        let far = if best < NOTHING { HOPELESS * best } else { f64::INFINITY };
         let all: Vec<(usize, (f64, Candidate))> = rated.into_iter().enumerate().collect();
         let one = |(place, (level, candidate)): (usize, (f64, Candidate))| {
-            if place < FOLLOWED || level < near {
+            if level < ENDS * best || (place < FOLLOWED && level < far) {
                 model::follow(&self.board, candidate).ok()
             } else {
                 Some(candidate)

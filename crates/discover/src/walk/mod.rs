@@ -5,7 +5,7 @@ mod candidates;
 mod places;
 
 use crate::{
-    board::{self, Board, COARSE, FINE, Fitted},
+    board::{self, Board, FINE, Fitted, ROUGH},
     decide::{Judged, shrink},
     gram::Gram,
     model::{self, Candidate},
@@ -23,6 +23,10 @@ const SHORT: usize = 4;
 
 /// Enough for the nominal model.
 const REFIT: Patience = Patience { misfit: 1.0, share: 5e-5, simulations: 20 };
+
+/// A model is refitted so often at most, as long as the mean squared residual falls below so much of what it was.
+const SETTLED: usize = 5;
+const AS_BEFORE: f64 = 0.8;
 
 /// Enough to come near.
 const FIRST: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 20 };
@@ -109,13 +113,15 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
     let channels = refit.blocks.first().map_or(1, Vec::len) as f64;
     let counts: Vec<f64> = board.samples().into_iter().map(|n| n * channels).collect();
     let origin = board.judged(rig, None)?;
-    if board.trained(&origin) < board.trained(&refit) {
+    if board.trained(&origin) < board.trained(&refit) || astray(&board, &refit, &origin) {
         refit = from_given(&mut board, &origin, options.seed)?;
     }
     let short = Board::of(rig, data, SHORT, loose.clone())?;
     let mut walk = Walk { board, short, counts, best: refit.clone(), origin, ranking: Vec::new() };
     let context = model::context(&walk.board, &refit);
-    let start = Gram::of(&walk.board, &refit, &context)?;
+    // Once at least, to say how little of it would show.
+    let tries = tries(&walk.judged(&refit.blocks)).max(1);
+    let start = Gram::of(&walk.board, &refit, (&context, tries))?;
     let mut effects: Vec<Found> = Vec::new();
     for round in 0..options.most {
         let first = Some(&start).filter(|_| round == 0);
@@ -142,23 +148,44 @@ fn nominal<'a>(
     let mut board = Board::of(rig, data, 1, loose.to_vec())?;
     let short = Board::of(rig, data, SHORT, loose.to_vec())?;
     let first = board.refit(rig, Some(&short).filter(|s| !s.imposed()), &FIRST)?;
-    let first = board.refined(&first, COARSE)?;
+    let first = board.refined(&first, FINE)?;
     board.refloor(&first, seed)?;
-    let refit = board.fit(&first.rig, Some((&first.x, &first.pieces)), &REFIT)?;
-    let refit = board.refined(&refit, COARSE)?;
-    board.refloor(&refit, seed)?;
-    let refit = board.again(&refit)?;
+    let refit = board.again(&first)?;
+    let refit = settled(&mut board, refit, seed)?;
     Ok((board, refit))
+}
+
+/// A model refitted for as long as it comes much nearer. The nearer it is the less its steps may be wrong by, and what
+/// noise leaves is known the better.
+fn settled(board: &mut Board<'_>, mut fitted: Fitted, seed: u64) -> Result<Fitted, FitError> {
+    for _ in 0..SETTLED {
+        let before = board.trained_level(&fitted);
+        fitted = board.fit(&fitted.rig, Some((&fitted.x, &fitted.pieces)), &REFIT)?;
+        fitted = board.refined(&fitted, FINE)?;
+        board.refloor(&fitted, seed)?;
+        fitted = board.again(&fitted)?;
+        if board.trained_level(&fitted) > AS_BEFORE * before {
+            break;
+        }
+    }
+    Ok(fitted)
 }
 
 /// The model refitted from the given values alone: where they are right already, a search by way of short windows
 /// may lead away from them.
 fn from_given(board: &mut Board<'_>, given: &Fitted, seed: u64) -> Result<Fitted, FitError> {
-    let given = board.refined(given, COARSE)?;
+    let given = board.refined(given, FINE)?;
     board.refloor(&given, seed)?;
     let given = board.again(&given)?;
     let refit = board.fit(&given.rig, Some((&given.x, &given.pieces)), &REFIT)?;
-    Ok(if board.trained(&refit) < board.trained(&given) { refit } else { given })
+    let better = board.trained(&refit) < board.trained(&given);
+    Ok(if better && !astray(board, &refit, &given) { refit } else { given })
+}
+
+/// Whether a refit says nothing: the model is far off with it, and a parameter went to what is absurd. A mass without
+/// friction that is to come to rest is best as heavy as can be.
+fn astray(board: &Board<'_>, refit: &Fitted, given: &Fitted) -> bool {
+    board.trained_level(refit) > GROSS && !model::reasonable(&refit.rig, &given.rig)
 }
 
 impl Walk<'_> {
@@ -179,20 +206,19 @@ impl Walk<'_> {
         (round, start): (usize, Option<&Gram>),
     ) -> Result<Option<Found>, FitError> {
         let now = self.judged(&self.best.blocks);
+        if now.level() > GROSS {
+            self.board.refine(&self.best, ROUGH)?;
+        }
         let candidates = self.candidates(context, options, (round, start))?;
         let nearest = |a: &&Candidate, b: &&Candidate| {
             let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
             level(a).total_cmp(&level(b))
         };
         let Some(best) = candidates.iter().min_by(nearest).cloned() else { return Ok(None) };
-        self.board.refine(&best.fitted, COARSE)?;
+        self.board.refine(&best.fitted, FINE)?;
         let rated = self.rated(self.followed(candidates), context, (round, &now));
         let Some((best, found)) = found(&now, &rated) else { return Ok(None) };
-        let from = (best.fitted.x.as_slice(), best.fitted.pieces.as_slice());
-        let further = self.board.fit(&best.fitted.rig, Some(from), &REFIT)?;
-        let better = self.board.trained(&further) < self.board.trained(&best.fitted);
-        self.best = if better { further } else { best.fitted.clone() };
-        self.origin = self.best.clone();
+        self.best = best.fitted.clone();
         Ok(Some(found))
     }
 
@@ -273,6 +299,11 @@ impl Walk<'_> {
         }
         Ok(())
     }
+}
+
+/// At how many amounts at most an effect is tried that does not begin smoothly.
+fn tries(now: &Judged) -> usize {
+    if now.level() < NOTHING { 0 } else { usize::MAX }
 }
 
 /// The best of the candidates, if it is surely there, with those that cannot be told from it; of these the simplest

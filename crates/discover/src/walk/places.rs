@@ -1,7 +1,10 @@
 //! Where what a model leaves acts: at what time, and in what state of the motion.
 
 use super::Walk;
-use crate::{board::Fitted, verdict::Share};
+use crate::{
+    board::{Fitted, SOFT},
+    verdict::Share,
+};
 use identify::fit::Data;
 
 /// The parts of a record, and the states of a motion.
@@ -25,13 +28,13 @@ const NONE: f64 = 0.1;
 struct Excess {
     sample: usize,
     velocity: f64,
-    /// Above the floor [1].
+    /// Above the floor, as much as its window is worth [1].
     above: f64,
 }
 
 impl Walk<'_> {
     /// The shares of the excess of a model, by thirds of the record and by the state of the motion; each of the two
-    /// adds up to 1. None where there is no excess.
+    /// adds up to 1. A window that is far off is worth its logarithm, as in the search. None where there is no excess.
     pub(super) fn shares(&self, refit: &Fitted) -> Vec<Share> {
         let all = self.excess(refit);
         let count = self.board.data.time.len().max(1);
@@ -52,11 +55,15 @@ impl Walk<'_> {
             let imposed = self.board.imposed();
             let piece = &refit.pieces[if imposed { 0 } else { k }];
             let channels = if imposed { 1 } else { 1 + usize::from(data.velocity.is_some()) };
+            let rows = if imposed { window.first..window.end } else { 0..window.len() * channels };
+            let own = piece.residuals.get(rows).unwrap_or(&[]);
+            let mean = own.iter().map(|r| r * r).sum::<f64>() / own.len().max(1) as f64;
+            let worth = SOFT / (SOFT + mean);
             for i in 0..window.len() {
                 let sample = window.first + i;
                 let row = if imposed { sample } else { i * channels };
                 let Some(rows) = piece.residuals.get(row..row + channels) else { continue };
-                let above = rows.iter().map(|r| r * r - 1.0).sum();
+                let above = worth * rows.iter().map(|r| r * r - 1.0).sum::<f64>();
                 all.push(Excess { sample, velocity: velocity(data, sample), above });
             }
         }

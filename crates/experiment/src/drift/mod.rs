@@ -87,10 +87,21 @@ fn searches(committed: &Summary, found: &Summary, moved: &mut Vec<Drift>) {
     compare("shares.csv", (&committed.shares, &found.shares), searched, moved);
 }
 
-/// The candidates that come near; where the others stopped on their way is chance.
+/// The candidates that take away nearly as much as the best one of their round, and may belong to its set; where the
+/// others stopped on their way is chance.
 fn near(summary: &Summary) -> Vec<record::RankedRow> {
-    const NEAR: f64 = 0.8;
-    summary.ranking.iter().filter(|row| row.shrink > NEAR).cloned().collect()
+    const ALIKE: f64 = 0.97;
+    let all = &summary.ranking;
+    let best = |row: &record::RankedRow| {
+        let same = |r: &&record::RankedRow| (&r.discovery, r.round) == (&row.discovery, row.round);
+        all.iter().filter(same).map(|r| r.shrink).fold(0.0, f64::max)
+    };
+    let mut near: Vec<_> = all.iter().filter(|r| r.shrink > ALIKE * best(r)).cloned().collect();
+    // Which of them comes first is chance, too.
+    near.sort_by(|a, b| {
+        (&a.discovery, a.round, &a.effect).cmp(&(&b.discovery, b.round, &b.effect))
+    });
+    near
 }
 
 /// The figures that show fits and searches.

@@ -13,6 +13,8 @@ pub struct Seen {
     pub noise: f64,
     /// Its largest less its smallest value.
     pub span: f64,
+    /// The step of its values, in the same unit; 0 if unknown.
+    pub quantum: f64,
 }
 
 impl Seen {
@@ -23,7 +25,7 @@ impl Seen {
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
         let span = if values.is_empty() { 0.0 } else { high - low };
         let noise = noise(&values).max(quantum / 12.0_f64.sqrt()).max(1e-9 * span);
-        Self { name: name.to_owned(), values, noise, span }
+        Self { name: name.to_owned(), values, noise, span, quantum }
     }
 }
 

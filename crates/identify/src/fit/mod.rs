@@ -8,7 +8,9 @@ pub mod binding;
 pub mod blocks;
 mod bootstrap;
 pub mod data;
+pub mod descent;
 mod estimate;
+mod follow;
 mod gap;
 mod imposed;
 pub use imposed::corners;
@@ -22,6 +24,7 @@ pub mod search;
 pub mod starts;
 mod way;
 mod weights;
+pub mod whitening;
 pub mod window;
 
 pub use data::{Data, Seen};

@@ -203,34 +203,22 @@ pub fn settled(
     pieces
 }
 
-/// The same, each window's start followed until it gains no more than this share, so many times at most.
+/// The same, each window's start followed in so many steps at most.
 pub fn converged(
     problem: &Problem<'_>,
     x: &[f64],
     pieces: Option<&[Piece]>,
     most: usize,
 ) -> Vec<Piece> {
-    const GAINED: f64 = 0.02;
     let first = settled(problem, x, pieces, 0);
-    let one = |(window, mut piece): (&Window, Piece)| {
-        for _ in 0..most {
-            let lead = problem.slopes(x, window, &piece).lead;
-            let next = problem.piece(x, window, lead.start);
-            let before = piece.misfit();
-            if next.misfit() < before {
-                piece = next;
-            }
-            if piece.misfit() >= (1.0 - GAINED) * before {
-                break;
-            }
-        }
-        piece
-    };
+    let one = |(window, piece): (&Window, Piece)| problem.nearest(x, window, piece, most);
     problem.windows.par_iter().zip(first).map(one).collect()
 }
 
-/// A window that is so much worse than the middle one began in another state of the contact.
+/// A window that is so much worse than the middle one began in another state of the contact; the second where the
+/// model is near, for then all windows leave the same.
 const ASTRAY: f64 = 5.0;
+const BESIDE: f64 = 2.0;
 
 /// Where else a contact may begin, from what the run-up says, of its natural size.
 const ELSEWHERE: [f64; 8] = [-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0];
@@ -241,9 +229,12 @@ const OFF: [f64; 3] = [0.5, 1.0, 2.0];
 /// How much faster or slower it may begin, of the spread of the start.
 const FASTER: f64 = 0.2;
 
-/// The share of a window in which its start is judged, and how many starts are followed to the end.
+/// The share of a window in which its start is judged.
 const EARLY: usize = 5;
-const TRIED: usize = 2;
+
+/// A model whose middle window leaves so much is far off, and one whose leaves less than this is near.
+const FAR_OFF: f64 = 100.0;
+const NEAR: f64 = 4.0;
 
 /// `pieces` once more where they went astray: each begun in several states of the contact and at other speeds, the
 /// best one kept.
@@ -252,9 +243,12 @@ pub fn rescued(problem: &Problem<'_>, x: &[f64], pieces: Vec<Piece>) -> Vec<Piec
     let mut sorted: Vec<f64> = pieces.iter().map(mean).collect();
     sorted.sort_by(f64::total_cmp);
     let Some(middle) = sorted.get(sorted.len() / 2).copied() else { return pieces };
+    // If the middle one is far off it is the model, and little is known of where the windows begin.
+    let [tried, followed] = if middle > FAR_OFF { [2, 2] } else { [4, 8] };
+    let astray = if middle < NEAR { BESIDE } else { ASTRAY };
     let all: Vec<(&Window, Piece)> = problem.windows.iter().zip(pieces).collect();
     let one = |(window, piece): (&Window, Piece)| {
-        if mean(&piece) < ASTRAY * middle.max(1.0) || problem.data.force.is_some() {
+        if mean(&piece) < astray * middle.max(1.0) || problem.data.force.is_some() {
             return piece;
         }
         let [q, v, ..] = window.start;
@@ -272,18 +266,14 @@ pub fn rescued(problem: &Problem<'_>, x: &[f64], pieces: Vec<Piece>) -> Vec<Piec
             shifts.chain(speeds).chain(places).map(|start| (start, early(start))).collect();
         starts.sort_by(|a, b| a.1.total_cmp(&b.1));
         let mut best = piece;
-        for (start, _) in starts.into_iter().take(TRIED) {
-            let mut next = problem.piece(x, window, start);
-            for _ in 0..2 {
-                let lead = problem.slopes(x, window, &next).lead;
-                let led = problem.piece(x, window, lead.start);
-                if led.misfit() >= next.misfit() {
-                    break;
-                }
-                next = led;
-            }
+        let near = middle.max(1.0) * best.residuals.len() as f64;
+        for (start, _) in starts.into_iter().take(tried) {
+            let next = problem.nearest(x, window, problem.piece(x, window, start), followed);
             if next.misfit() < best.misfit() {
                 best = next;
+            }
+            if best.misfit() < near {
+                break;
             }
         }
         best

@@ -1,6 +1,6 @@
 //! A simulated window, and how it follows the parameters.
 
-use super::window::START;
+use super::{descent::within, window::START};
 use crate::march::Motion;
 use nalgebra::DMatrix;
 
@@ -54,4 +54,62 @@ pub struct Slopes {
     pub jacobian: DMatrix<f64>,
     /// How the start follows.
     pub lead: Lead,
+}
+
+/// A window's derivatives by its start: Q of their factors, the inverse of R, and the columns' sizes, for these differ
+/// by the units of displacement and velocity, and it is their directions that count.
+pub(super) struct Starts {
+    pub(super) q: DMatrix<f64>,
+    r: DMatrix<f64>,
+    inverse: DMatrix<f64>,
+    sizes: Vec<f64>,
+}
+
+impl Starts {
+    pub(super) fn of(mut columns: DMatrix<f64>) -> Self {
+        let sizes: Vec<f64> = columns.column_iter().map(|column| column.norm()).collect();
+        for (mut column, size) in columns.column_iter_mut().zip(&sizes) {
+            column /= *size;
+        }
+        let starts = columns.ncols();
+        let qr = columns.qr();
+        let r = qr.r();
+        let inverse = r.clone().try_inverse().unwrap_or_else(|| DMatrix::zeros(starts, starts));
+        Self { q: qr.q(), r, inverse, sizes }
+    }
+
+    /// By how much the start moves against what lies `along` its directions.
+    pub(super) fn moved(&self, along: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut moved = -(&self.inverse * along);
+        for (mut row, size) in moved.row_iter_mut().zip(&self.sizes) {
+            row /= *size;
+        }
+        moved
+    }
+
+    /// The start of a window with the smallest misfit.
+    pub(super) fn better(&self, piece: &Piece) -> [f64; START] {
+        let more = self.moved(&self.q.tr_mul(&column(piece)));
+        let start = |i: usize| piece.start[i] + if i < more.nrows() { more[(i, 0)] } else { 0.0 };
+        std::array::from_fn(start)
+    }
+
+    /// The step to the smallest misfit within a reach [of the start's spread], and by how much that falls.
+    pub(super) fn step(
+        &self,
+        piece: &Piece,
+        (spread, reach): (&[f64; START], f64),
+    ) -> ([f64; START], f64) {
+        let n = self.sizes.len();
+        // By each number of the start in units of its spread.
+        let by = DMatrix::from_fn(n, n, |i, j| self.r[(i, j)] * self.sizes[j] * spread[j]);
+        let along = self.q.tr_mul(&column(piece));
+        let (gauss, gradient) = (by.tr_mul(&by), by.tr_mul(&along).column(0).into_owned());
+        let (step, promised, _) = within(&gauss, &gradient, reach);
+        (std::array::from_fn(|i| if i < n { step[i] * spread[i] } else { 0.0 }), promised)
+    }
+}
+
+fn column(piece: &Piece) -> DMatrix<f64> {
+    DMatrix::from_column_slice(piece.residuals.len(), 1, &piece.residuals)
 }

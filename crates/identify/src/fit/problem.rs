@@ -4,6 +4,7 @@ use super::{
     binding::{Free, Scale, given, model},
     data::Data,
     imposed::forces,
+    piece::Starts,
     window::{ONE_MASS, START, Window},
 };
 pub use super::{
@@ -14,7 +15,7 @@ use crate::{
     Rig,
     march::{Drive, Feedback, Model, Motion, Real, Start, Tape, Tolerance, march, part, replay},
 };
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DMatrixViewMut};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
 
@@ -192,6 +193,9 @@ impl Problem<'_> {
         for i in 0..window.len() {
             self.sample(window.first + i, &motion, i, &mut residuals);
         }
+        if let Some(whitening) = &window.whitening {
+            whitening.apply(&mut residuals);
+        }
         for (i, spread) in window.spread.iter().enumerate().take(self.starts()) {
             residuals.push((start[i] - window.start[i]) / spread);
         }
@@ -248,73 +252,82 @@ impl Problem<'_> {
         Tolerance { q: tolerance * q, v: tolerance * v, z: tolerance, steps }
     }
 
-    /// The derivatives of a window's residuals by the variables `x`, and by its start.
+    /// The derivatives of a window's residuals by the variables `x`, its start projected out, and how that follows.
     pub fn slopes(&self, x: &[f64], window: &Window, piece: &Piece) -> Slopes {
         let (free, starts) = (self.free.len(), self.starts());
-        let columns = free + if starts == 0 { ONE_MASS } else { starts };
-        let mut jacobian = DMatrix::zeros(self.rows(window), columns);
-        match columns {
-            0..=3 => self.columns::<4>(x, window, piece, &mut jacobian),
-            4..=7 => self.columns::<8>(x, window, piece, &mut jacobian),
-            8..=11 => self.columns::<12>(x, window, piece, &mut jacobian),
-            _ => self.columns::<16>(x, window, piece, &mut jacobian),
-        }
-        let n = jacobian.nrows();
+        let jacobian = self.jacobian(x, window, piece, 0);
+        let by_x = jacobian.columns(0, free).into_owned();
         if starts == 0 {
             let lead = Lead::staying(piece.start, free);
-            return Slopes { jacobian: jacobian.columns(0, free).into_owned(), lead };
+            return Slopes { jacobian: by_x, lead };
         }
-        for (i, spread) in window.spread.iter().enumerate().take(starts) {
-            jacobian[(n - starts + i, free + i)] = spread.recip();
-        }
-        let by_start = jacobian.columns(free, starts).into_owned();
-        let by_x = jacobian.columns(0, free).into_owned();
-        // The columns differ in size by the units of q and v; their directions are what counts.
-        let sizes: Vec<f64> = by_start.column_iter().map(|column| column.norm()).collect();
-        let unit = DMatrix::from_fn(n, starts, |i, j| by_start[(i, j)] / sizes[j]);
-        let qr = unit.qr();
-        let (q, r) = (qr.q(), qr.r());
-        let inverse = r.try_inverse().unwrap_or_else(|| DMatrix::zeros(starts, starts));
-        let residuals = DMatrix::from_column_slice(n, 1, &piece.residuals);
-        let along = q.transpose() * &by_x;
-        let scaled =
-            |m: DMatrix<f64>| DMatrix::from_fn(starts, m.ncols(), |i, j| -m[(i, j)] / sizes[i]);
-        let more = scaled(&inverse * (q.transpose() * residuals));
-        let by = scaled(&inverse * &along).resize_vertically(START, 0.0);
-        let start =
-            std::array::from_fn(|i| piece.start[i] + if i < starts { more[(i, 0)] } else { 0.0 });
+        let own = Starts::of(jacobian.columns(free, starts).into_owned());
+        let along = own.q.tr_mul(&by_x);
+        let start = own.better(piece);
+        let by = own.moved(&along).resize_vertically(START, 0.0);
         let lead = Lead { was: piece.start, misfit: piece.misfit(), start, by };
-        Slopes { jacobian: by_x - q * along, lead }
+        Slopes { jacobian: by_x - own.q * along, lead }
     }
 
-    fn columns<const P: usize>(
-        &self,
-        x: &[f64],
-        window: &Window,
-        piece: &Piece,
-        jacobian: &mut DMatrix<f64>,
-    ) {
-        let mut first = 0;
-        while first < jacobian.ncols() {
-            self.some_columns::<P>(x, window, piece, (first, jacobian));
-            first += P - 1;
+    /// The derivatives of a window's residuals by its start.
+    pub(super) fn by_start(&self, x: &[f64], window: &Window, piece: &Piece) -> Starts {
+        Starts::of(self.jacobian(x, window, piece, self.free.len()))
+    }
+
+    /// The derivatives of a window's residuals by the variables and then by its start, from column `first` on.
+    fn jacobian(&self, x: &[f64], window: &Window, piece: &Piece, first: usize) -> DMatrix<f64> {
+        let (free, starts) = (self.free.len(), self.starts());
+        let columns = free + if starts == 0 { ONE_MASS } else { starts };
+        let mut jacobian = DMatrix::zeros(self.rows(window), columns - first);
+        match columns - first {
+            0..=3 => self.columns::<4>(x, window, piece, (first, &mut jacobian)),
+            4..=7 => self.columns::<8>(x, window, piece, (first, &mut jacobian)),
+            8..=11 => self.columns::<12>(x, window, piece, (first, &mut jacobian)),
+            _ => self.columns::<16>(x, window, piece, (first, &mut jacobian)),
         }
+        if let Some(whitening) = &window.whitening {
+            for mut column in jacobian.column_iter_mut() {
+                whitening.apply(column.as_mut_slice());
+            }
+        }
+        let n = jacobian.nrows();
+        for (i, spread) in window.spread.iter().enumerate().take(starts) {
+            jacobian[(n - starts + i, free + i - first)] = spread.recip();
+        }
+        jacobian
     }
 
-    /// The columns from `first` on, as many as fit.
-    fn some_columns<const P: usize>(
+    /// The columns from `first` on, in passes of as many as fit.
+    fn columns<const P: usize>(
         &self,
         x: &[f64],
         window: &Window,
         piece: &Piece,
         (first, jacobian): (usize, &mut DMatrix<f64>),
     ) {
+        let mut done = 0;
+        while done < jacobian.ncols() {
+            let many = (jacobian.ncols() - done).min(P - 1);
+            let mut part = jacobian.columns_mut(done, many);
+            self.some_columns::<P>(x, window, piece, (first + done, &mut part));
+            done += many;
+        }
+    }
+
+    /// As many columns from `first` on as there is room for.
+    fn some_columns<const P: usize>(
+        &self,
+        x: &[f64],
+        window: &Window,
+        piece: &Piece,
+        (first, jacobian): (usize, &mut DMatrixViewMut<'_, f64>),
+    ) {
         let model = self.model_with::<P>(x, first);
         let range = window.first..window.end;
-        let many = (jacobian.ncols() - first).min(P - 1);
+        let many = jacobian.ncols();
         let mut write = |row: usize, value: &DualSVec64<P>, weight: f64| {
             for place in 0..many {
-                jacobian[(row, first + place)] = part(value, place) / weight;
+                jacobian[(row, place)] = part(value, place) / weight;
             }
         };
         if let Some(force) = &self.data.force {
@@ -367,25 +380,6 @@ impl Problem<'_> {
                 write(row + 1, &u, self.weights.input);
             }
         });
-    }
-
-    /// Every window at the variables `x`, its start as `leads` have it, or as it was seen.
-    pub fn pieces(&self, x: &[f64], at: Option<(&[f64], &[Lead])>) -> Vec<Piece> {
-        self.windows
-            .par_iter()
-            .enumerate()
-            .map(|(w, window)| {
-                let Some((x_0, leads)) = at else { return self.piece(x, window, window.start) };
-                let lead = &leads[w];
-                let led = self.piece(x, window, lead.at(x, x_0));
-                if led.misfit() <= lead.misfit {
-                    return led;
-                }
-                // Where friction holds, or soon will, a start is followed badly by a straight line.
-                let stayed = self.piece(x, window, lead.was);
-                if stayed.misfit() < led.misfit() { stayed } else { led }
-            })
-            .collect()
     }
 
     /// The derivatives of all `pieces`.

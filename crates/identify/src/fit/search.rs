@@ -65,10 +65,6 @@ struct Search<'p, 'd> {
     at: RefCell<Option<(Vec<f64>, Vec<Lead>)>>,
     simulations: usize,
     derivatives: Cell<usize>,
-    /// The simulations that it may take, whatever the method would like, and the best variables so far with their
-    /// misfit.
-    most: usize,
-    best: (Vec<f64>, f64),
 }
 
 impl Search<'_, '_> {
@@ -105,12 +101,6 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_, '_> {
             self.x[*i] = x[place];
         }
         self.simulate();
-        if self.most < usize::MAX {
-            let misfit = self.misfit();
-            if misfit < self.best.1 {
-                self.best = (self.x.clone(), misfit);
-            }
-        }
     }
 
     fn params(&self) -> DVector<f64> {
@@ -118,9 +108,6 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_, '_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        if self.simulations > self.most {
-            return None;
-        }
         let mut all: Vec<f64> =
             self.pieces.iter().flat_map(|p| p.residuals.iter().copied()).collect();
         all.extend(self.problem.loads(&self.x).0);
@@ -156,32 +143,16 @@ pub fn search(
     fixed: Option<usize>,
     patience: &Patience,
 ) -> Found {
-    let (mut search, reason) = descended(problem, from, (fixed, usize::MAX), patience);
+    let (mut search, reason) = descended(problem, from, fixed, patience);
     let end = end(&search, &reason);
     search.simulate();
     search.found(end)
 }
 
-/// The same with no more simulations than the patience says, where the method would take as many as there are
-/// variables, and without asking whether the end is a minimum, which costs a Jacobian.
-pub fn descend(
-    problem: &Problem<'_>,
-    from: (&[f64], Option<&[Piece]>),
-    patience: &Patience,
-) -> Found {
-    let (mut search, reason) = descended(problem, from, (None, patience.simulations), patience);
-    if matches!(reason, TerminationReason::User(_)) {
-        search.x.clone_from(&search.best.0);
-    }
-    search.most = usize::MAX;
-    search.simulate();
-    search.found(End::OutOfPatience)
-}
-
 fn descended<'p, 'd>(
     problem: &'p Problem<'d>,
     (x, pieces): (&[f64], Option<&[Piece]>),
-    (fixed, most): (Option<usize>, usize),
+    fixed: Option<usize>,
     patience: &Patience,
 ) -> (Search<'p, 'd>, TerminationReason) {
     let stays = |piece: &Piece| Lead::staying(piece.start, x.len());
@@ -195,11 +166,8 @@ fn descended<'p, 'd>(
         at: RefCell::new(at),
         simulations: 0,
         derivatives: Cell::new(0),
-        most,
-        best: (x.to_vec(), f64::INFINITY),
     };
     search.simulate();
-    search.best.1 = search.misfit();
     let rounds = patience.simulations.div_ceil(search.moving.len() + 1);
     let share = patience.misfit / search.misfit();
     // The library panics on a tolerance that is no number.

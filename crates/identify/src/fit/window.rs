@@ -1,6 +1,7 @@
 //! Where a simulated piece of the record begins, and in what state.
 
-use super::data::Data;
+use super::{data::Data, whitening::Whitening};
+use std::sync::Arc;
 
 /// A piece of the record that is simulated in one go.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +20,8 @@ pub struct Window {
     /// Where the displacement has turned [m] on its way to the window, and its start at last, without the turns inside
     /// larger ones: what a contact that slips can remember. Empty if nobody asked.
     pub path: Vec<f64>,
+    /// What makes its residuals independent of each other; none if they are so.
+    pub whitening: Option<Arc<Whitening>>,
 }
 
 /// The numbers of a window's start: displacement [m], velocity [m/s], and how far the contact's states are from
@@ -44,65 +47,74 @@ const LOOSE: f64 = 10.0;
 impl Window {
     /// The window of these samples.
     pub fn new(data: &Data, first: usize, end: usize) -> Self {
-        let Some(seen) = &data.displacement else {
-            return Self {
-                first,
-                end,
-                start: [0.0; START],
-                spread: [1.0; START],
-                run_up: 0.0,
-                path: Vec::new(),
-            };
-        };
-        let look = &seen.values[first..(first + LOOK).min(end)];
-        let time = &data.time[first..(first + LOOK).min(end)];
-        let ([q, slope], [q_spread, slope_spread]) = straight(time, look, seen.noise);
-        let (mut v, mut v_spread) = (slope, slope_spread);
-        if let Some(velocity) = &data.velocity
-            && velocity.noise < v_spread
-        {
-            (v, v_spread) = (velocity.values[first], velocity.noise);
-        }
-        if v.abs() < 2.0 * v_spread {
-            v = 0.0;
-        }
-        let come = run_up(&seen.values[..=first], 4.0 * seen.noise);
-        Self {
+        let none = Self {
             first,
             end,
-            start: [q, v, 0.0, 0.0, 0.0],
-            spread: [
-                LOOSE * q_spread,
-                LOOSE * v_spread,
-                UNKNOWN,
-                1.0,
-                FASTER * data.speed().max(f64::MIN_POSITIVE),
-            ],
-            run_up: if v.abs() > MOVING * v_spread { come * same(come, v) } else { 0.0 },
+            start: [0.0; START],
+            spread: [1.0; START],
+            run_up: 0.0,
             path: Vec::new(),
-        }
+            whitening: None,
+        };
+        let Some(seen) = &data.displacement else { return none };
+        let look = &seen.values[first..(first + LOOK).min(end)];
+        let time = &data.time[first..(first + LOOK).min(end)];
+        let (value, spread) = straight((time, data.time[first]), look, seen.noise);
+        none.seen(data, value, spread)
     }
 
-    /// The same window, with where the displacement has turned before it, and with a start that is known no better
-    /// than the parabola through its first samples fits them: under a force that jumps they are no parabola.
+    /// The same window, with where the displacement has turned before it, and with its start as the samples to both
+    /// sides show it: known no better than a parabola fits them, for under a force that jumps they are none.
     #[must_use]
     pub fn remembering(self, data: &Data) -> Self {
         let Some(seen) = &data.displacement else { return self };
         let path = path(&seen.values[..=self.first], 4.0 * seen.noise);
-        let end = (self.first + LOOK).min(self.end);
-        let (time, look) = (&data.time[self.first..end], &seen.values[self.first..end]);
+        let (from, end) = around(data, self.first);
+        let about = data.time[self.first];
+        let (time, look) = (&data.time[from..end], &seen.values[from..end]);
         let wider = bent(time, look) / seen.noise.max(f64::MIN_POSITIVE);
-        let mut spread = self.spread;
-        if wider > BENT {
-            spread[..2].iter_mut().for_each(|spread| *spread *= wider);
+        let wider = if wider > BENT { wider } else { 1.0 };
+        let (value, spread) = straight((time, about), look, seen.noise);
+        let mut all = self.seen(data, value, spread.map(|spread| spread * wider));
+        all.path = path;
+        all
+    }
+
+    /// The same window with its start at a displacement and a velocity that are known with these standard deviations,
+    /// if the velocity was not measured better.
+    fn seen(self, data: &Data, [q, slope]: [f64; 2], [q_spread, slope_spread]: [f64; 2]) -> Self {
+        let (mut v, mut v_spread) = (slope, slope_spread);
+        if let Some(velocity) = &data.velocity
+            && velocity.noise < v_spread
+        {
+            (v, v_spread) = (velocity.values[self.first], velocity.noise);
         }
-        Self { spread, path, ..self }
+        if v.abs() < 2.0 * v_spread {
+            v = 0.0;
+        }
+        let Some(seen) = &data.displacement else { return self };
+        let come = run_up(&seen.values[..=self.first], 4.0 * seen.noise);
+        let faster = FASTER * data.speed().max(f64::MIN_POSITIVE);
+        Self {
+            start: [q, v, 0.0, 0.0, 0.0],
+            spread: [LOOSE * q_spread, LOOSE * v_spread, UNKNOWN, 1.0, faster],
+            run_up: if v.abs() > MOVING * v_spread { come * same(come, v) } else { 0.0 },
+            ..self
+        }
+    }
+
+    /// How well a parabola fits the samples around sample `i`, in units of their noise [1].
+    pub fn smooth(data: &Data, i: usize) -> f64 {
+        let Some(seen) = &data.displacement else { return 0.0 };
+        let (from, end) = around(data, i);
+        bent(&data.time[from..end], &seen.values[from..end]) / seen.noise.max(f64::MIN_POSITIVE)
     }
 
     /// Its first samples alone, so many.
     #[must_use]
     pub fn beginning(&self, samples: usize) -> Self {
-        Self { end: self.end.min(self.first + samples.max(1)), ..self.clone() }
+        let end = self.end.min(self.first + samples.max(1));
+        Self { end, whitening: None, ..self.clone() }
     }
 
     /// How many samples it has.
@@ -114,6 +126,15 @@ impl Window {
     pub fn is_empty(&self) -> bool {
         self.end <= self.first
     }
+}
+
+/// So many samples to either side tell the state at a window's start, where there are so many before it.
+const BESIDE: usize = 4;
+
+/// The samples around sample `i`, from the first to one past the last.
+fn around(data: &Data, i: usize) -> (usize, usize) {
+    let count = data.time.len();
+    if i < BESIDE { (i, (i + LOOK).min(count)) } else { (i - BESIDE, (i + BESIDE + 1).min(count)) }
 }
 
 /// Samples that are off their parabola by so many times their noise are on none.
@@ -140,15 +161,15 @@ fn same(a: f64, b: f64) -> f64 {
 /// So many standard deviations of the velocity are a motion.
 const MOVING: f64 = 5.0;
 
-/// Value and slope at the first time of the parabola (of the line, the constant, if there are not enough) that
+/// Value and slope at a time of the parabola (of the line, the constant, if there are not enough) that
 /// fits best, and their standard deviations for values with this `noise`.
-fn straight(time: &[f64], values: &[f64], noise: f64) -> ([f64; 2], [f64; 2]) {
+fn straight((time, about): (&[f64], f64), values: &[f64], noise: f64) -> ([f64; 2], [f64; 2]) {
     let order = values.len().min(3);
     let scale = time.last().map_or(1.0, |t| (t - time[0]).max(f64::MIN_POSITIVE));
     let a = nalgebra::DMatrix::from_fn(values.len(), order, |i, j| {
         #[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "below 3")]
         let power = j as i32;
-        ((time[i] - time[0]) / scale).powi(power)
+        ((time[i] - about) / scale).powi(power)
     });
     let inverse = (a.transpose() * &a).try_inverse();
     let Some(inverse) = inverse.filter(|_| order > 0) else {
@@ -211,7 +232,41 @@ fn path(values: &[f64], dead: f64) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::path;
+    use super::{START, Window, path};
+    use crate::{
+        Hold,
+        fit::data::{Data, Seen},
+    };
+
+    #[test]
+    fn the_samples_to_both_sides_tell_a_start_of_a_motion_that_bends() {
+        // A cubic: its third derivative is what a parabola does not see.
+        let time: Vec<f64> = (0..40).map(|i| 0.005 * f64::from(i)).collect();
+        let way = |t: f64| 0.2 * t + 3.0 * t * t + 40.0 * t.powi(3);
+        let values: Vec<f64> = time.iter().map(|t| way(*t)).collect();
+        let data = Data {
+            input: vec![0.0; 40],
+            hold: Hold::ZeroOrder,
+            displacement: Some(Seen::new("position", values, 0.0)),
+            velocity: None,
+            force: None,
+            loads: None,
+            reference: Vec::new(),
+            added: Vec::new(),
+            time,
+        };
+        let t = data.time[20];
+        let truth = [way(t), 0.2 + 6.0 * t + 120.0 * t * t];
+        let off = |start: [f64; START]| (start[1] - truth[1]).abs();
+        let one_sided = Window::new(&data, 20, 40);
+        let central = one_sided.clone().remembering(&data);
+        // By Taylor: the slope of a parabola through t³ at −4h … 4h is off by 59/5 h² times its coefficient.
+        let expected = 40.0 * 59.0 / 5.0 * 0.005_f64.powi(2);
+        assert!((off(central.start) / expected - 1.0).abs() < 1e-6, "{}", off(central.start));
+        assert!(
+            (central.start[0] - truth[0]).abs() < 1e-12 && off(one_sided.start) > 3.0 * expected
+        );
+    }
 
     #[test]
     fn a_slipping_element_remembers_the_same_from_the_turns_as_from_the_way() {
