@@ -186,17 +186,10 @@ mod tests {
         let (q, v) = (of(&f64::sin), of(&|p| omega * p.cos()));
         let input =
             q.iter().zip(&v).map(|(q, v)| (3.0 - 2.0 * omega * omega) * q + 0.5 * v - more(*q, *v));
-        Data {
-            input: input.collect(),
-            hold: identify::Hold::Linear,
-            displacement: Some(Seen::new("position", q, 0.0)),
-            velocity: Some(Seen::new("velocity", v, 0.0)),
-            force: None,
-            loads: None,
-            reference: Vec::new(),
-            added: Vec::new(),
-            time,
-        }
+        let input = input.collect();
+        let position = Seen::new("position", q, 0.0);
+        let velocity = Some(Seen::new("velocity", v, 0.0));
+        Data { velocity, ..Data::driven(time, input, identify::Hold::Linear, position) }
     }
 
     #[test]

@@ -143,18 +143,9 @@ mod tests {
             Rig::parse(&text).unwrap()
         };
         let time: Vec<f64> = (0..400).map(|i| 0.005 * f64::from(i)).collect();
-        let wave = |t: &f64| (3.0 * t).sin();
-        let data = Data {
-            input: time.iter().map(wave).collect(),
-            hold: Hold::ZeroOrder,
-            displacement: Some(Seen::new("position", time.iter().map(wave).collect(), 0.0)),
-            velocity: None,
-            force: None,
-            loads: None,
-            reference: Vec::new(),
-            added: Vec::new(),
-            time,
-        };
+        let wave: Vec<f64> = time.iter().map(|t| (3.0 * t).sin()).collect();
+        let position = Seen::new("position", wave.clone(), 0.0);
+        let data = Data::driven(time, wave, Hold::ZeroOrder, position);
         let (given, fitted) = (rig(15.0), rig(29.0));
         let problem = Problem::of(&fitted, &data).unwrap();
         let x = starts::nominal(&problem);

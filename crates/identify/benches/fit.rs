@@ -179,19 +179,11 @@ fn record(anchor: &Anchor) -> Result<Record, Box<dyn Error>> {
     let mut noisy = |name: &str, c: usize| {
         let mut draw = || -> f64 { StandardNormal.sample(&mut random) };
         let values = truth[c].iter().map(|v| v + noise[c] * draw()).collect();
-        Some(Seen::new(name, values, 0.0))
+        Seen::new(name, values, 0.0)
     };
-    let data = Data {
-        displacement: noisy("angle", 0),
-        velocity: noisy("velocity", 1),
-        time,
-        input,
-        hold: Hold::Linear,
-        force: None,
-        loads: None,
-        reference: Vec::new(),
-        added: Vec::new(),
-    };
+    let angle = noisy("angle", 0);
+    let velocity = Some(noisy("velocity", 1));
+    let data = Data { velocity, ..Data::driven(time, input, Hold::Linear, angle) };
     Ok(Record { data, rig, truth, noise })
 }
 

@@ -38,17 +38,9 @@ fn record(rig: &Rig, amplitude: f64, seed: u64) -> Data {
         let mut normal = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
         values.iter().map(|v| v + noise * normal()).collect()
     };
-    Data {
-        displacement: Some(Seen::new("position", noisy(&motion.q, NOISE[0]), 0.0)),
-        velocity: Some(Seen::new("velocity", noisy(&motion.v, NOISE[1]), 0.0)),
-        time,
-        input,
-        hold: Hold::Linear,
-        force: None,
-        loads: None,
-        reference: Vec::new(),
-        added: Vec::new(),
-    }
+    let position = Seen::new("position", noisy(&motion.q, NOISE[0]), 0.0);
+    let velocity = Some(Seen::new("velocity", noisy(&motion.v, NOISE[1]), 0.0));
+    Data { velocity, ..Data::driven(time, input, Hold::Linear, position) }
 }
 
 fn quick() -> Options {

@@ -140,17 +140,8 @@ mod tests {
     fn a_motion_is_seen_in_the_record_whatever_a_model_does() {
         let time: Vec<f64> = (0..9).map(|i| 0.1 * f64::from(i)).collect();
         let at = |t: &f64| 3.0 * t;
-        let data = Data {
-            input: vec![0.0; 9],
-            hold: Hold::ZeroOrder,
-            displacement: Some(Seen::new("angle", time.iter().map(at).collect(), 0.0)),
-            velocity: None,
-            force: None,
-            loads: None,
-            reference: Vec::new(),
-            added: Vec::new(),
-            time,
-        };
+        let angle = Seen::new("angle", time.iter().map(at).collect(), 0.0);
+        let data = Data::driven(time, vec![0.0; 9], Hold::ZeroOrder, angle);
         let all = (0..9).map(|sample| velocity(&data, sample));
         assert!(all.into_iter().all(|v| (v - 3.0).abs() < 1e-12));
         let measured = Seen::new("speed", vec![2.0; 9], 0.0);

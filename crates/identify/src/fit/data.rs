@@ -53,6 +53,21 @@ pub struct Data {
 }
 
 impl Data {
+    /// A driven plant of which the displacement alone was seen. What else was is set in it afterwards.
+    pub fn driven(time: Vec<f64>, input: Vec<f64>, hold: Hold, displacement: Seen) -> Self {
+        Self {
+            time,
+            input,
+            hold,
+            displacement: Some(displacement),
+            velocity: None,
+            force: None,
+            loads: None,
+            reference: Vec::new(),
+            added: Vec::new(),
+        }
+    }
+
     /// The channels of `recording` as the plant of `rig` needs them. A record holds what its rig file names,
     /// so that a channel is missing only where it may be.
     pub fn of(rig: &Rig, recording: &Recording) -> Self {

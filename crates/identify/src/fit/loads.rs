@@ -110,17 +110,11 @@ mod tests {
         // By hand: a positive angle draws the first spring out and lets the second in.
         let first: Vec<f64> = angle.iter().map(|a| value("f_10") + k_1 * r * a).collect();
         let second: Vec<f64> = angle.iter().map(|a| value("f_20") - k_2 * r * a).collect();
-        let data = Data {
-            time: (0..20).map(|i| 0.01 * f64::from(i)).collect(),
-            input: vec![0.0; 20],
-            hold: Hold::Linear,
-            displacement: Some(Seen::new("angle", angle.clone(), 1e-3)),
-            velocity: None,
-            force: None,
-            loads: Some([Seen::new("force_1", first, 1e-4), Seen::new("force_2", second, 1e-4)]),
-            reference: Vec::new(),
-            added: Vec::new(),
-        };
+        let time = (0..20).map(|i| 0.01 * f64::from(i)).collect();
+        let seen = Seen::new("angle", angle.clone(), 1e-3);
+        let cells = [Seen::new("force_1", first, 1e-4), Seen::new("force_2", second, 1e-4)];
+        let driven = Data::driven(time, vec![0.0; 20], Hold::Linear, seen);
+        let data = Data { loads: Some(cells), ..driven };
         rig.free = vec!["k_1".to_owned(), "k_2".to_owned()];
         let problem = crate::fit::problem(&rig, &data).expect("a problem");
         let x = crate::fit::starts::nominal(&problem);

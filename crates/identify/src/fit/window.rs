@@ -244,17 +244,8 @@ mod tests {
         let time: Vec<f64> = (0..40).map(|i| 0.005 * f64::from(i)).collect();
         let way = |t: f64| 0.2 * t + 3.0 * t * t + 40.0 * t.powi(3);
         let values: Vec<f64> = time.iter().map(|t| way(*t)).collect();
-        let data = Data {
-            input: vec![0.0; 40],
-            hold: Hold::ZeroOrder,
-            displacement: Some(Seen::new("position", values, 0.0)),
-            velocity: None,
-            force: None,
-            loads: None,
-            reference: Vec::new(),
-            added: Vec::new(),
-            time,
-        };
+        let position = Seen::new("position", values, 0.0);
+        let data = Data::driven(time, vec![0.0; 40], Hold::ZeroOrder, position);
         let t = data.time[20];
         let truth = [way(t), 0.2 + 6.0 * t + 120.0 * t * t];
         let off = |start: [f64; START]| (start[1] - truth[1]).abs();
