@@ -20,9 +20,6 @@ use std::sync::Arc;
 /// How many times the input is perturbed by its own noise.
 const TIMES: u64 = 4;
 
-/// What a noise of the input moves shows with long steps, too: those with which its way is followed, of the spans [1].
-const ENOUGH: f64 = 1e-5;
-
 /// The noise of the input is carried by hats over so many samples each: within fewer it hardly moves a mass.
 const HAT: usize = 15;
 
@@ -78,7 +75,6 @@ pub(crate) fn whitened(
     if noise <= 0.0 {
         return Ok(vec![None; board.windows.len()]);
     }
-    let board = &Board { tolerance: board.tolerance.max(ENOUGH), ..board.clone() };
     let held = fitted.held();
     let gain = identify::fit::binding::model::<f64>(&held, &|_| None).balance.gain;
     let one = |(window, piece): (&Window, &Piece)| {
@@ -131,8 +127,7 @@ fn noise_of_input(data: &Data, rig: &Rig) -> f64 {
     let mut off: Vec<f64> = (2..data.input.len()).map(|i| off(i).abs()).collect();
     let middle = off.len() / 2;
     let middle = *off.select_nth_unstable_by(middle, f64::total_cmp).1;
-    // The median size of a normal variable is 0.6745 of its standard deviation.
-    (middle / 0.674_489_750_196_082).min(least)
+    (middle / MIDDLE).min(least)
 }
 
 /// By what one draw of the input's noise moves every sample.
@@ -199,8 +194,9 @@ const SELDOM: usize = 50;
 /// Of what the middle difference or the step of an encoder says at least so much shows.
 const SHOWN: f64 = 0.7;
 
-/// Standard deviation of the white noise on a smooth signal, from its third and fifth differences, by their root
-/// mean square where the middle one would see only the steps of an encoder; `least` is that of the middle one.
+/// Standard deviation of the white noise on a smooth signal, from its third, fifth, seventh and ninth differences:
+/// of the first two by their root mean square, where the middle one would see only the steps of an encoder; `least` is
+/// that of the middle one.
 pub(crate) fn noise(seen: &Seen, least: f64) -> f64 {
     let values = &seen.values;
     let mut differences = values.clone();

@@ -88,7 +88,8 @@ pub struct Found {
     pub separated_by: String,
 }
 
-/// The misfit of a channel on the judging blocks.
+/// The misfit of a channel on the judging blocks, root mean square, after what the noise of the input may move was
+/// weighed down: see [`Whitening`](identify::fit::whitening::Whitening).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gap {
     /// The channel.

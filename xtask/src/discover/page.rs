@@ -103,7 +103,8 @@ fn gap(told: &Told) -> FitPart {
     FitPart {
         title: "The gap".to_owned(),
         text: words(&[
-            "Root mean square of measured less simulated on the blocks that were not fitted.",
+            "Root mean square of measured less simulated on the blocks that were not fitted; what the noise of the \
+             input may move is weighed down.",
         ]),
         head: words(&["channel", "given", "refitted", "with the effects", "floor"]),
         rows: told.found.gap.iter().map(row).collect(),
@@ -170,12 +171,12 @@ fn places(told: &Told, pictures: &Pictures) -> Option<FitPart> {
     let heat = picture::heat(told, &pictures.residuals)?;
     let shares = &told.found.shares;
     let list = shares.iter().filter(|s| s.share.is_finite());
-    let list = list.map(|s| format!("{}: {} %", s.part, four_digits(100.0 * s.share)));
+    let list = list.map(|s| format!("{}: {:.0} %", s.part, 100.0 * s.share));
     let list: Vec<String> = list.collect();
     let text = if list.is_empty() {
         Vec::new()
     } else {
-        words(&["Of the excess over the floor, refitted:"])
+        words(&["Of the excess over the floor, refitted, each share to about 10 %:"])
     };
     Some(FitPart { title: "Where".to_owned(), text, list, drawings: vec![heat], ..part() })
 }

@@ -82,7 +82,7 @@ struct Walk<'a> {
     short: Board<'a>,
     counts: Vec<f64>,
     best: Fitted,
-    /// The model before its last refit: what is missing drags parameters to where no effect is itself.
+    /// The model before its refit, in the first round: what is missing drags parameters to where no effect is itself.
     origin: Fitted,
     ranking: Vec<Ranked>,
 }
@@ -112,9 +112,10 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
     let rig = &held;
     let channels = refit.blocks.first().map_or(1, Vec::len) as f64;
     let counts: Vec<f64> = board.samples().into_iter().map(|n| n * channels).collect();
-    let origin = board.judged(rig, None)?;
+    let mut origin = board.judged(rig, None)?;
     if board.trained(&origin) < board.trained(&refit) || astray(&board, &refit, &origin) {
         refit = from_given(&mut board, &origin, options.seed)?;
+        origin = board.again(&origin)?;
     }
     let short = Board::of(rig, data, SHORT, loose.clone())?;
     let mut walk = Walk { board, short, counts, best: refit.clone(), origin, ranking: Vec::new() };
@@ -126,9 +127,9 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
     for round in 0..options.most {
         let first = Some(&start).filter(|_| round == 0);
         let Some(found) = walk.step(&context, options, (round, first))? else { break };
-        // What noise leaves is known the better the nearer the model is.
-        walk.board.refloor(&walk.best, options.seed)?;
-        walk.best = walk.board.again(&walk.best)?;
+        // A refit of what was taken is not the next effect's to claim.
+        walk.best = settled(&mut walk.board, walk.best, options.seed)?;
+        walk.origin = walk.best.clone();
         walk.reclaim(&mut strayed)?;
         effects.push(found);
     }

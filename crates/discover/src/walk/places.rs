@@ -34,7 +34,8 @@ struct Excess {
 
 impl Walk<'_> {
     /// The shares of the excess of a model, by thirds of the record and by the state of the motion; each of the two
-    /// adds up to 1. A window that is far off is worth its logarithm, as in the search. None where there is no excess.
+    /// adds up to 1. However far off a window is it counts as a few floors: which
+    /// of them are the farthest is another on each processor. None where there is no excess.
     pub(super) fn shares(&self, refit: &Fitted) -> Vec<Share> {
         let all = self.excess(refit);
         let count = self.board.data.time.len().max(1);

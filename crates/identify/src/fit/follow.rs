@@ -35,6 +35,9 @@ impl Problem<'_> {
     /// A window with its start in so many of Gauss and Newton's steps at most to the best one near, each within a reach
     /// that grows and shrinks as a search's radius does.
     pub fn nearest(&self, x: &[f64], window: &Window, piece: Piece, most: usize) -> Piece {
+        if self.starts() == 0 {
+            return piece;
+        }
         let (mut best, mut reach, mut looked) = (piece, f64::INFINITY, None);
         for _ in 0..most {
             let starts = looked.take().unwrap_or_else(|| self.by_start(x, window, &best));

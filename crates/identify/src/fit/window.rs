@@ -10,7 +10,7 @@ pub struct Window {
     pub first: usize,
     /// One past its last sample.
     pub end: usize,
-    /// Its start as the samples after it show it.
+    /// Its start as the samples after it, or to both sides of it, show it.
     pub start: [f64; START],
     /// The standard deviations of these.
     pub spread: [f64; START],
