@@ -15,9 +15,6 @@ use identify::{
 const GLANCE: Patience = Patience { misfit: 2.0, share: 1e-3, simulations: 5 };
 const PATIENCE: Patience = Patience { misfit: 2.0, share: 1e-4, simulations: 14 };
 
-/// Enough to come near from far off.
-const AFRESH: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 16 };
-
 /// An effect and the model that has it.
 #[derive(Debug, Clone)]
 pub(crate) struct Candidate {
@@ -36,7 +33,7 @@ pub(crate) fn follow(board: &Board<'_>, candidate: Candidate) -> Result<Candidat
 }
 
 /// The model with an effect at what its score says, all of it free.
-fn with(fitted: &Fitted, scored: &Scored) -> Rig {
+pub(crate) fn with(fitted: &Fitted, scored: &Scored) -> Rig {
     let about = scored.kind.about();
     let mut rig = fitted.rig.clone();
     let shapes: Vec<f64> = about
@@ -55,21 +52,6 @@ fn with(fitted: &Fitted, scored: &Scored) -> Rig {
         identify::fit::binding::set(&mut rig, &name, *value);
     }
     rig
-}
-
-/// Refits the model with an effect on `short` windows, from values that are far from the truth: it, and how far off it
-/// is on them.
-pub(crate) fn afresh(
-    short: &Board<'_>,
-    fitted: &Fitted,
-    scored: &Scored,
-) -> Result<(Rig, f64), FitError> {
-    short.sketch(&with(fitted, scored), &AFRESH)
-}
-
-/// Goes on with it on long windows.
-pub(crate) fn lengthened(board: &Board<'_>, kind: Kind, rig: &Rig) -> Result<Candidate, FitError> {
-    Ok(Candidate { kind, fitted: board.fit(rig, None, &AFRESH)? })
 }
 
 /// Refits the model with an effect, begun at what its score says, as far as a glance goes.

@@ -131,6 +131,7 @@ fn fitted(rig: &Rig, data: &Data) -> (Found, Vec<f64>) {
     let problem = Problem {
         rig,
         data,
+        speed: data.speed(),
         free,
         windows,
         closed_loop: false,

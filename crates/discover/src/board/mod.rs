@@ -1,6 +1,7 @@
 //! The blocks of a record, which of them are fitted and which judge.
 
 mod loose;
+mod race;
 mod steps;
 
 pub(crate) use loose::{loose, loosened};
@@ -257,17 +258,9 @@ impl<'a> Board<'a> {
         patience: &Patience,
     ) -> Result<Fitted, FitError> {
         let Some(short) = short else { return self.fit(rig, None, patience) };
-        let (near, _) = short.sketch(rig, patience)?;
-        self.fit(&near, None, patience)
-    }
-
-    /// Fits `rig` on the training blocks from its own values, and looks no further: it, and the logarithms of the sums
-    /// of squares of its windows.
-    pub(crate) fn sketch(&self, rig: &Rig, patience: &Patience) -> Result<(Rig, f64), FitError> {
-        let problem = self.problem(rig, |k| self.trains[k])?;
+        let problem = short.problem(rig, |k| short.trains[k])?;
         let found = descend(&problem, (&starts::nominal(&problem), None), patience);
-        let logarithm = |piece: &Piece| piece.misfit().max(f64::MIN_POSITIVE).ln();
-        Ok((with_values(rig, &problem, &found.x), found.pieces.iter().map(logarithm).sum()))
+        self.fit(&with_values(rig, &problem, &found.x), None, patience)
     }
 
     /// The spread of an imposed motion's force with what a model still leaves of each window: one that is far off, for

@@ -1,6 +1,6 @@
 //! The effects that are worth a refit, and what a refit makes of them.
 
-use super::{GROSS, LEAST, NOTHING, Walk, tries};
+use super::{GROSS, NOTHING, Walk, tries};
 use crate::{
     board::Fitted,
     decide::{Judged, shrink},
@@ -12,18 +12,25 @@ use crate::{
 use identify::{
     Rig,
     effects::{Context, Kind},
-    fit::FitError,
+    fit::{FitError, search::Patience},
 };
 use rayon::prelude::*;
 
 /// What is worth a refit takes so much off the sum of squares, in units of the floor: five standard errors are 25.
 const GAIN: f64 = 12.0;
 
+/// And brings the mean squared residual on the judging blocks down by so much, in units of the floor; near it a sum of
+/// squares that falls there by as much as on the others says the same.
+const FALLS: f64 = 0.01;
+
 /// So many more are refitted where the model is far off.
 const BESIDE: usize = 20;
 
-/// Of those, so many are refitted on the long windows.
-const AFRESH: usize = 8;
+/// Enough to come near from far off; after so many simulations on short windows so many go on. A race on the long ones
+/// leaves behind what is better in the end.
+const AFRESH: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 16 };
+const HEAT: usize = 6;
+const KEPT: usize = 8;
 
 /// Near the floor so few are worth a look.
 const FEW: usize = 2;
@@ -73,15 +80,13 @@ impl Walk<'_> {
 
     /// The effects refitted from a `point` far from the truth by way of short windows; those go on that are near there.
     fn afresh(&self, point: &Fitted, list: &[Scored]) -> Vec<Candidate> {
-        let near = |scored: &Scored| {
-            let (rig, left) = model::afresh(&self.short, point, scored).ok()?;
-            Some((left, scored.kind, rig))
+        let all: Vec<(Kind, Rig)> =
+            list.iter().map(|scored| (scored.kind, model::with(point, scored))).collect();
+        let near = self.short.raced(&all, (HEAT, KEPT), &AFRESH);
+        let longer = |(kind, rig): (Kind, Rig)| {
+            Some(Candidate { kind, fitted: self.board.fit(&rig, None, &AFRESH).ok()? })
         };
-        let mut all: Vec<(f64, Kind, Rig)> = list.par_iter().filter_map(near).collect();
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        all.truncate(AFRESH);
-        let longer = |(_, kind, rig)| model::lengthened(&self.board, kind, &rig).ok();
-        all.into_par_iter().filter_map(longer).collect()
+        near.into_par_iter().filter_map(longer).collect()
     }
 
     /// The plausible candidates, the best first, each effect once; all of them go to the ranking.
@@ -150,7 +155,11 @@ impl Walk<'_> {
     ) -> Vec<Scored> {
         let far = now.level() > GROSS;
         let scores = screen::scores(gram, !far, &self.board.trains);
-        let gains = |s: &Scored| s.gain > GAIN && self.scored(s).level() < now.level() - LEAST;
+        let gains = |s: &Scored| {
+            let there = self.scored(s);
+            let near = now.level() < NOTHING && now.gained(&there) > GAIN;
+            s.gain > GAIN && (near || there.level() < now.level() - FALLS)
+        };
         // What does not begin smoothly has its score only where it was tried, and is always worth a look.
         let (joints, scores): (Vec<Scored>, Vec<Scored>) =
             scores.into_iter().partition(|s| !s.kind.tried().is_empty());

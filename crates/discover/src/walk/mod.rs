@@ -60,8 +60,8 @@ const CLOSE_TO: f64 = 1.4;
 /// What takes away so much of the excess need not do so in every block alike.
 const MOST: f64 = 0.5;
 
-/// It is no name either if the mean squared residual falls by less than this, in units of the floor.
-const LEAST: f64 = 0.01;
+/// It is no name either if the sum of squares on the judging blocks falls by less than so many squared standard errors.
+const LEAST: f64 = 60.0;
 
 /// A rival leaves no more than so many times what the best one does.
 const NEAR: f64 = 1.5;
@@ -311,17 +311,23 @@ fn tries(now: &Judged) -> usize {
 /// goes first, for what needs more numbers fits more than there is.
 fn found<'c>(now: &Judged, rated: &'c [(Candidate, Judged)]) -> Option<(&'c Candidate, Found)> {
     let (best, judged) = rated.first()?;
-    let gone = shrink(now.level(), judged.level());
+    // What noise leaves is known to a tenth or so: what lies below is no excess.
+    let floor = judged.level().min(1.0);
+    let share = |other: &Judged| shrink(now.level() / floor, other.level() / floor);
+    let gone = share(judged);
     // Near the floor a few dozen effects are tried on nothing, and the best of them is better by chance.
     let quiet = now.level() < NOTHING;
-    let sure = |t: f64| {
-        if quiet { t >= CERTAIN } else { t >= SURE || (gone > MOST && t >= UNSURE) }
+    let t = now.against(judged);
+    let sure = if quiet {
+        t >= CERTAIN || (gone > MOST && now.everywhere(judged) >= CERTAIN)
+    } else {
+        t >= SURE || (gone > MOST && t >= UNSURE)
     };
-    if !sure(now.against(judged)) || gone < WORTH || now.level() - judged.level() < LEAST {
+    if !sure || gone < WORTH || now.gained(judged) < LEAST {
         return None;
     }
     let rival = |(_, other): &&(Candidate, Judged)| {
-        let worse = shrink(now.level(), other.level());
+        let worse = share(other);
         let alike = gone - worse < ALIKE * gone && other.level() < NEAR * judged.level();
         (other.against(judged) < UNSURE || alike) && worse > CLOSE * gone
     };
@@ -332,6 +338,54 @@ fn found<'c>(now: &Judged, rated: &'c [(Candidate, Judged)]) -> Option<(&'c Cand
     let set: Vec<&'static str> = alike.iter().map(|(c, _)| name(c.kind)).collect();
     let separated_by =
         if set.len() > 1 { best.kind.about().separated_by.to_owned() } else { String::new() };
-    let (shrink, t) = (shrink(now.level(), judged.level()), now.against(judged));
+    let (shrink, t) = (share(judged), now.against(judged));
     Some((best, Found { name: set[0], set, values: Vec::new(), shrink, t, separated_by }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Candidate, Fitted, Judged, found};
+    use identify::{Rig, effects::LAWS};
+
+    const RIG: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n\
+        [friction]\nname = \"none\"\nsigma_2 = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n";
+
+    /// Twenty blocks of 300 residuals about this mean square, one a little above and one below it in turn.
+    fn judged(mean: f64, apart: f64) -> Judged {
+        let block = |k: usize| mean + if k.is_multiple_of(2) { apart } else { -apart };
+        Judged { blocks: (0..20).map(block).collect(), counts: vec![300.0; 20] }
+    }
+
+    fn candidate(place: usize) -> Candidate {
+        let rig = Rig::parse(RIG).unwrap();
+        let fitted = Fitted { rig, x: Vec::new(), pieces: Vec::new(), blocks: Vec::new() };
+        Candidate { kind: LAWS[place], fitted }
+    }
+
+    #[test]
+    fn what_a_floor_told_too_high_hides_is_found() {
+        // 0.03 of 6000 residuals are 180: thirteen standard errors, though all of it lies below the floor.
+        let now = judged(0.9, 0.01);
+        let rated = [(candidate(0), judged(0.87, 0.008)), (candidate(1), judged(0.899, 0.01))];
+        let (_, taken) = found(&now, &rated).expect("an effect");
+        assert_eq!((taken.set.len(), taken.shrink), (1, 1.0));
+        // And 0.005 of them 30, which the best of a few dozen effects may come to.
+        let rated = [(candidate(0), judged(0.895, 0.01))];
+        assert!(found(&now, &rated).is_none());
+    }
+
+    #[test]
+    fn what_is_better_in_every_block_is_found_however_unlike_these_are() {
+        let with = |first: f64, rest: f64| {
+            let blocks = (0..20).map(|k| if k == 0 { first } else { rest + 0.001 * f64::from(k) });
+            Judged { blocks: blocks.collect(), counts: vec![300.0; 20] }
+        };
+        let (now, then) = (with(50.0, 1.1), with(0.6, 1.0));
+        assert!(now.level() < super::NOTHING && now.against(&then) < super::CERTAIN);
+        assert!(found(&now, &[(candidate(0), then)]).is_some());
+        // In half of the blocks only it is chance.
+        let mut half = with(0.6, 1.0);
+        half.blocks.iter_mut().skip(1).step_by(2).for_each(|block| *block += 0.2);
+        assert!(found(&now, &[(candidate(0), half)]).is_none());
+    }
 }

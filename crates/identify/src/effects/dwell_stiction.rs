@@ -24,7 +24,7 @@ impl Law for DwellStiction {
         // The age is forgotten as the contact slips; what its bristles follow is no slip.
         let speed = if at.v.re() < 0.0 { -at.v } else { at.v };
         let aged = p[1].recip() * at.dt;
-        let worn = speed * at.held * at.dt / at.grain;
+        let worn = speed * at.held() * at.dt / at.grain();
         z[0] = (base[0] + aged) / (aged + worn + 1.0);
         Act::rise(p[0] * z[0])
     }

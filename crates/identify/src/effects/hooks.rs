@@ -1,11 +1,11 @@
 //! Where an effect takes hold.
 
 use super::{About, Kind, joint::Joint};
-use crate::march::{Balance, Real};
+use crate::march::{Balance, Contact, Real};
 
 /// An instant of a motion, as a law sees it.
 #[derive(Debug, Clone, Copy)]
-pub struct At<D> {
+pub struct At<'a, D> {
     /// Time since the record began [s].
     pub t: f64,
     /// The stage's own share of a step [s].
@@ -18,16 +18,29 @@ pub struct At<D> {
     pub v: D,
     /// Radius of a drum [m], 1 for others.
     pub radius: f64,
-    /// The Coulomb force of the nominal friction [N], 0 if it has none.
-    pub f_c: D,
-    /// The shortest deflection at which the contact slips [m].
-    pub grain: f64,
+    /// The contact, and its states before the stage.
+    pub contact: (&'a Contact<D>, &'a [D]),
     /// What drives the plant.
-    pub balance: Balance<D>,
+    pub balance: &'a Balance<D>,
     /// The mass that moves, the motor's where the load is another [kg].
     pub mass: D,
+}
+
+impl<D: Real> At<'_, D> {
+    /// The Coulomb force of the nominal friction [N], 0 if it has none.
+    pub fn f_c(&self) -> D {
+        self.contact.0.level()
+    }
+
+    /// The shortest deflection at which the contact slips [m].
+    pub fn grain(&self) -> f64 {
+        self.contact.0.grain()
+    }
+
     /// What share of its level the contact held before the stage [1]: so much of the motion is slip.
-    pub held: D,
+    pub fn held(&self) -> D {
+        self.contact.0.held(self.contact.1)
+    }
 }
 
 /// What an effect adds to the friction F of the model.
@@ -64,8 +77,12 @@ impl<D: Real> Act<D> {
     }
 
     /// Where no bristle has taken the rise of the level, all of the friction of level `f_c` grows by it.
-    pub(crate) fn risen(&mut self, f_c: D, bristles: bool) {
-        if !bristles && f_c.re() > 0.0 {
+    pub(crate) fn risen(&mut self, f_c: impl Fn() -> D, bristles: bool) {
+        if bristles {
+            return;
+        }
+        let f_c = f_c();
+        if f_c.re() > 0.0 {
             self.more += self.rise / f_c;
         }
     }

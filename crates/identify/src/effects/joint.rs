@@ -41,7 +41,7 @@ struct Free<D> {
 impl<D: Real> Joint<D> {
     /// The force of springs and weight on the load at `x` [N], and its slope [N/m].
     fn pull(at: &At<D>, x: D) -> (D, D) {
-        let b = &at.balance;
+        let b = at.balance;
         let (mut pull, mut slope) = (b.stiffness * x - b.constant, b.stiffness);
         if b.gravity.re() != 0.0 {
             pull += b.gravity * x.sin();
@@ -117,11 +117,11 @@ impl<D: Real> Joint<D> {
         let pull = Self::pull(at, at.q).0;
         let mut force = pull;
         if way != 0.0 {
-            let drives = at.drive - pull - at.f_c * way - at.balance.damping * at.v;
+            let drives = at.drive - pull - at.f_c() * way - at.balance.damping * at.v;
             let share = self.mass / (self.mass + at.mass);
             force += drives * share + self.rubs * way;
         }
-        let Some(half) = self.half else { return (force + off * at.f_c) / self.stiffness };
+        let Some(half) = self.half else { return (force + off * at.f_c()) / self.stiffness };
         let off = if off.re() < 0.0 { -off } else { off };
         let off = if off.re() > 2.0 { D::from(2.0) } else { off };
         let side = half * (D::from(1.0) - off) * if force.re() < 0.0 { -1.0 } else { 1.0 };

@@ -20,7 +20,7 @@ impl Law for LoadFriction {
     };
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        let f_c = if at.f_c.re() > 0.0 { at.f_c } else { D::from(1.0) };
+        let f_c = if at.f_c().re() > 0.0 { at.f_c() } else { D::from(1.0) };
         let load = if at.drive.re() < 0.0 { -at.drive } else { at.drive };
         Act::more(p[0] * load / f_c)
     }

@@ -139,53 +139,107 @@ pub(super) fn within(
     (&eigen.eigenvectors * by, gained, bounded)
 }
 
-/// Searches from `x` for a smaller loss, its windows begun where they did in `pieces` of a search nearby, or, if there
-/// are none, as they were seen. It does not ask whether the end is a minimum.
+/// A search on its way, which may be left and taken up again.
+pub struct Descent<'p, 'd> {
+    problem: &'p Problem<'d>,
+    here: Point,
+    /// The c of the loss [1].
+    c: f64,
+    /// The loss at the point where it is [1].
+    now: f64,
+    radius: f64,
+    simulations: [usize; 2],
+    ended: bool,
+}
+
+impl std::fmt::Debug for Descent<'_, '_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Descent")
+            .field("x", &self.here.x)
+            .field("loss", &self.now)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'p, 'd> Descent<'p, 'd> {
+    /// At its beginning, the variables `x`, its windows begun where they did in `pieces` of a search nearby, or, if
+    /// there are none, as they were seen.
+    pub fn of(problem: &'p Problem<'d>, x: &[f64], pieces: Option<&[Piece]>) -> Self {
+        let stays = |piece: &Piece| Lead::staying(piece.start, x.len());
+        let leads: Option<Vec<Lead>> = pieces.map(|pieces| pieces.iter().map(stays).collect());
+        let lead = leads.as_ref().map(|leads| (x, leads.as_slice()));
+        let here = Point::at(problem, x.to_vec(), lead);
+        let c = softness(problem, &here.pieces);
+        let now = loss(problem, &here, c);
+        Self { problem, here, c, now, radius: FIRST_STEP, simulations: [1, 0], ended: false }
+    }
+
+    /// Searches for a smaller loss until it has simulated so often in all. It does not ask whether the end is a
+    /// minimum.
+    pub fn go(&mut self, patience: &Patience) {
+        while !self.ended && self.simulations[0] < patience.simulations {
+            self.step(patience);
+        }
+    }
+
+    /// A step down, or the end.
+    fn step(&mut self, patience: &Patience) {
+        let enough = patience.misfit.max(patience.share * self.now);
+        let local = Local::of(self.problem, &self.here, self.c);
+        self.simulations[1] += 1;
+        for tried in 0.. {
+            let (step, promised, bounded) = within(&local.gauss, &local.gradient, self.radius);
+            let hopeless = promised <= enough && !bounded;
+            if hopeless || tried > TRIED {
+                self.ended = true;
+                return;
+            }
+            if self.simulations[0] >= patience.simulations {
+                return;
+            }
+            let next = self.here.x.iter().zip(step.iter()).map(|(x, s)| x + s).collect();
+            let there = Point::at(self.problem, next, Some((&self.here.x, &local.leads)));
+            self.simulations[0] += 1;
+            let then = loss(self.problem, &there, self.c);
+            let gained = self.now - then;
+            if gained > GOOD * promised {
+                self.radius = self.radius.max(LONGER * step.norm());
+            } else if gained.is_nan() || gained < POOR * promised {
+                self.radius = SHORTER * step.norm();
+            }
+            if gained > 0.0 {
+                (self.here, self.now) = (there, then);
+                // A step that its radius bounds is no sign of the end.
+                let small = !bounded || self.radius < FIRST_STEP;
+                self.ended = gained.max(promised) < enough && small;
+                return;
+            }
+        }
+    }
+
+    /// The windows where it is.
+    pub fn pieces(&self) -> &[Piece] {
+        &self.here.pieces
+    }
+
+    /// Where it is.
+    pub fn found(self) -> Found {
+        let windows: f64 = self.here.pieces.iter().map(Piece::misfit).sum();
+        let misfit = windows + loads(self.problem, &self.here.x);
+        let Point { x, pieces } = self.here;
+        Found { x, misfit, pieces, end: End::OutOfPatience, simulations: self.simulations }
+    }
+}
+
+/// Searches from `x` for a smaller loss, as [`Descent`] does.
 pub fn descend(
     problem: &Problem<'_>,
     (x, pieces): (&[f64], Option<&[Piece]>),
     patience: &Patience,
 ) -> Found {
-    let stays = |piece: &Piece| Lead::staying(piece.start, x.len());
-    let leads: Option<Vec<Lead>> = pieces.map(|pieces| pieces.iter().map(stays).collect());
-    let lead = leads.as_ref().map(|leads| (x, leads.as_slice()));
-    let mut here = Point::at(problem, x.to_vec(), lead);
-    let c = softness(problem, &here.pieces);
-    let mut now = loss(problem, &here, c);
-    let (mut radius, mut simulations) = (FIRST_STEP, [1, 0]);
-    'search: while simulations[0] < patience.simulations {
-        let enough = patience.misfit.max(patience.share * now);
-        let local = Local::of(problem, &here, c);
-        simulations[1] += 1;
-        for tried in 0.. {
-            let (step, promised, bounded) = within(&local.gauss, &local.gradient, radius);
-            let hopeless = promised <= enough && !bounded;
-            if hopeless || tried > TRIED || simulations[0] >= patience.simulations {
-                break 'search;
-            }
-            let next = here.x.iter().zip(step.iter()).map(|(x, s)| x + s).collect();
-            let there = Point::at(problem, next, Some((&here.x, &local.leads)));
-            simulations[0] += 1;
-            let then = loss(problem, &there, c);
-            let gained = now - then;
-            if gained > GOOD * promised {
-                radius = radius.max(LONGER * step.norm());
-            } else if gained.is_nan() || gained < POOR * promised {
-                radius = SHORTER * step.norm();
-            }
-            if gained > 0.0 {
-                (here, now) = (there, then);
-                // A step that its radius bounds is no sign of the end.
-                if gained.max(promised) < enough && (!bounded || radius < FIRST_STEP) {
-                    break 'search;
-                }
-                break;
-            }
-        }
-    }
-    let windows: f64 = here.pieces.iter().map(Piece::misfit).sum();
-    let misfit = windows + loads(problem, &here.x);
-    Found { x: here.x, misfit, pieces: here.pieces, end: End::OutOfPatience, simulations }
+    let mut descent = Descent::of(problem, x, pieces);
+    descent.go(patience);
+    descent.found()
 }
 
 #[cfg(test)]

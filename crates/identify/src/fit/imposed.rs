@@ -29,8 +29,9 @@ pub(super) fn forces<D: Real>(
         let dt = if i > 0 { time[i] - time[i - 1] } else { 0.0 };
         let step = if i > 0 { u[i] - u[i - 1] } else { 0.0 };
         let base = aged.clone();
-        let mut now = at(model, (time[i], dt), (u[i], step / dt.max(f64::MIN_POSITIVE)));
-        now.held = model.contact.held(&z);
+        let before = z.clone();
+        let motion = (u[i], step / dt.max(f64::MIN_POSITIVE));
+        let now = at(model, (time[i], dt), motion, &before);
         if !model.effects.is_empty() {
             act = model.acts(&now, &base, &mut aged);
         }
@@ -56,7 +57,7 @@ pub(super) fn forces<D: Real>(
             let now = At { v: D::from(velocity(i)), dt: 0.0, ..now };
             let here = model.acts(&now, &aged, &mut base.clone());
             act = Act { force: here.force, more: here.more, rise: here.rise, ..act };
-            act.risen(model.contact.level(), model.contact.bristles());
+            act.risen(|| model.contact.level(), model.contact.bristles());
         }
         let own = force(&model.contact, &z, (velocity(i), act.rise), direction);
         let sign = own.re().partial_cmp(&0.0).map_or(0.0, |order| f64::from(order as i8));
@@ -126,8 +127,13 @@ fn between((u, corners): (&[f64], &[bool]), i: usize, share: f64) -> f64 {
     straight + bend * ((2.0 - share) * left + (1.0 + share) * right)
 }
 
-/// The instant as a law sees it.
-fn at<D: Real>(model: &Model<D>, (t, dt): (f64, f64), (q, v): (f64, f64)) -> At<D> {
+/// The instant as a law sees it, the contact's states being `z`.
+fn at<'a, D: Real>(
+    model: &'a Model<D>,
+    (t, dt): (f64, f64),
+    (q, v): (f64, f64),
+    z: &'a [D],
+) -> At<'a, D> {
     At {
         t,
         dt,
@@ -135,11 +141,9 @@ fn at<D: Real>(model: &Model<D>, (t, dt): (f64, f64), (q, v): (f64, f64)) -> At<
         q: D::from(q),
         v: D::from(v),
         radius: 1.0,
-        f_c: model.contact.level(),
-        grain: model.contact.grain(),
-        balance: model.balance,
+        contact: (&model.contact, z),
+        balance: &model.balance,
         mass: model.balance.mass,
-        held: D::from(1.0),
     }
 }
 

@@ -296,6 +296,7 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     Ok(Problem {
         rig,
         data,
+        speed: data.speed(),
         free,
         windows,
         closed_loop,

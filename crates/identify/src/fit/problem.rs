@@ -30,6 +30,8 @@ pub struct Problem<'a> {
     pub rig: &'a Rig,
     /// The record.
     pub data: &'a Data,
+    /// The largest speed of the record [m/s].
+    pub speed: f64,
     /// What is free.
     pub free: Vec<Free>,
     /// The windows that are simulated.
@@ -244,7 +246,7 @@ impl Problem<'_> {
     /// What a step may be wrong by, and how many a window may take.
     fn spans(&self, window: &Window, tolerance: f64) -> Tolerance {
         let q = self.data.displacement.as_ref().map_or(1.0, |d| d.span.max(d.noise));
-        let v = self.data.speed().max(1e-12);
+        let v = self.speed.max(1e-12);
         // A step of order 3 gets shorter with the cube root of what it may be wrong by.
         let finer = (1e-5 / tolerance).cbrt().max(1.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within usize")]

@@ -95,10 +95,9 @@ impl<D: Real> Model<D> {
             return force - friction;
         }
         let at = self.at(stage, driving, [q, v], &base[..n]);
-        let f_c = at.f_c;
         let mut all = self.acts(&at, &base[n..], &mut z[n..]);
         let friction = self.contact.stage(&base[..n], stage.dt, (v, all.rise), &mut z[..n]);
-        all.risen(f_c, self.contact.bristles());
+        all.risen(|| self.contact.level(), self.contact.bristles());
         let sign = |x: f64| if x == 0.0 { 0.0 } else { x.signum() };
         let grown = friction + friction * (all.more + all.skew * sign(friction.re()));
         force -= grown + all.force;
@@ -110,12 +109,11 @@ impl<D: Real> Model<D> {
     }
 
     /// An instant, as the effects see it; the contact began the stage with the states `base`.
-    fn at(&self, stage: &Stage<D>, drive: D, [q, v]: [D; 2], base: &[D]) -> At<D> {
-        let (f_c, grain, held) =
-            (self.contact.level(), self.contact.grain(), self.contact.held(base));
+    fn at<'a>(&'a self, stage: &Stage<D>, drive: D, [q, v]: [D; 2], base: &'a [D]) -> At<'a, D> {
         let (t, dt, radius) = (stage.t, stage.dt, self.radius);
-        let (balance, mass) = (self.balance, self.mass());
-        At { t, dt, drive, q, v, radius, f_c, grain, balance, mass, held }
+        let (balance, mass) = (&self.balance, self.mass());
+        let contact = (&self.contact, base);
+        At { t, dt, drive, q, v, radius, contact, balance, mass }
     }
 
     /// Where the load's states begin among all, if it is not one with the motor.
