@@ -44,6 +44,17 @@ fn said(verdict: &str, names: &str) -> String {
     }
 }
 
+/// The answer in words: a name that the record cannot tell from others stands among them.
+fn answered(summary: &Summary, row: &DiscoveryRow) -> String {
+    let own = |effect: &&EffectRow| effect.discovery == row.discovery && effect.effect == row.names;
+    match summary.effects.iter().find(own).map(|effect| effect.set.replace(';', ", ")) {
+        Some(set) if row.verdict == "effect" && set.contains(", ") => {
+            format!("one of these is missing: {set}")
+        }
+        _ => said(&row.verdict, &row.names),
+    }
+}
+
 /// What is told of a search: its record, its rig, the answer and what was hidden.
 pub(crate) fn told(summary: &Summary, row: &DiscoveryRow) -> Vec<(&'static str, String)> {
     let shares = summary.shares.iter().filter(|share| share.discovery == row.discovery);
@@ -55,7 +66,7 @@ pub(crate) fn told(summary: &Summary, row: &DiscoveryRow) -> Vec<(&'static str, 
     let mut told = vec![
         ("Record", format!("{}, {} samples", row.record, number::count(row.samples))),
         ("Rig", row.rig.clone()),
-        ("Answer", said(&row.verdict, &row.names)),
+        ("Answer", answered(summary, row)),
         ("Hidden", said(&row.truth, &row.hidden)),
         (
             "Where the excess is (each share to about 10 %)",
@@ -160,18 +171,15 @@ pub(crate) fn overview(summary: &Summary) -> Option<Grid> {
         root.map_or_else(|| NONE.to_owned(), |v| number::significant(v, 3))
     };
     let row = |row: &DiscoveryRow| {
-        let mut cells = vec![
-            heading(row).to_owned(),
-            said(&row.verdict, &row.names),
-            said(&row.truth, &row.hidden),
-        ];
+        let mut cells =
+            vec![heading(row).to_owned(), answered(summary, row), said(&row.truth, &row.hidden)];
         cells.extend([row.before, row.refit, row.after].map(level));
         cells
     };
     let rows: Vec<_> = summary.discoveries.iter().map(row).collect();
     let head = ["record", "answer", "hidden", "given", "refitted", "after"];
     let head = head.map(str::to_owned).to_vec();
-    (rows.len() > 1).then_some(Grid { head, rows, class: "fits", words: 3 })
+    (rows.len() > 1).then_some(Grid { head, rows, class: "answers", words: 3 })
 }
 
 /// How the table of all searches is read.
