@@ -7,9 +7,10 @@ use crate::{
 };
 use identify::{
     Rig,
-    effects::{Context, Kind, Shape, Sign},
+    effects::{Context, Key, Kind, Measure, Shape, Sign},
     fit::{FitError, problem::Problem, search::Patience},
 };
+use std::f64::consts::PI;
 
 /// Enough to see whether a candidate is worth more, and enough for one that is.
 const GLANCE: Patience = Patience { misfit: 2.0, share: 1e-3, simulations: 5 };
@@ -121,9 +122,13 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
     let about = kind.about();
     // No effect is stronger than what drives the plant; its friction may be weak.
     let driven = Context { force: context.drive, ..*context };
+    let value = |key: &Key| rig.value(&format!("{}.{}", about.name, key.name)).unwrap_or(0.0);
+    // Of less than half a wave only the slope and the bend are seen, and no amplitude is.
+    let wave = about.keys.iter().find(|key| key.measure == Measure::Wavenumber);
+    let seen = wave.map_or(1.0, |key| (value(key) * context.span / PI).clamp(f64::EPSILON, 1.0));
     let own = about.keys.iter().all(|key| {
-        let value = rig.value(&format!("{}.{}", about.name, key.name)).unwrap_or(0.0);
-        let size = context.size(key.measure).max(driven.size(key.measure));
+        let value = value(key);
+        let size = context.size(key.measure).max(driven.size(key.measure)) / seen;
         let sign = match key.sign {
             Sign::Any => true,
             Sign::Positive => value >= 0.0,
@@ -169,5 +174,43 @@ pub(crate) fn context(board: &Board<'_>, fitted: &Fitted) -> Context {
         sample_time: data.sample_time(),
         mass: model.balance.mass,
         turns: identify::rig::Kind::of(rig.kind).is_some_and(identify::rig::Kind::turns),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plausible;
+    use identify::{
+        Rig,
+        effects::{Context, Kind},
+    };
+
+    const RIG: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n\
+        [friction]\nname = \"coulomb\"\nf_c = 1.0\n\
+        [channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n\
+        [[effect]]\nname = \"position_friction\"\nsine = 3.0\ncosine = 0.0\nwavenumber = ";
+
+    #[test]
+    fn an_amplitude_is_judged_by_what_is_seen_of_its_wave() {
+        let context = Context {
+            input: 1.0,
+            force: 1.0,
+            drive: 1.0,
+            pull: 1.0,
+            speed: 1.0,
+            span: 0.5,
+            memory: 1e-3,
+            duration: 60.0,
+            sample_time: 0.005,
+            mass: 2.0,
+            turns: false,
+        };
+        let fits = |wavenumber: f64| {
+            let rig = Rig::parse(&format!("{RIG}{wavenumber}\n")).unwrap();
+            plausible(&rig, Kind::PositionFriction, &context, &[&rig])
+        };
+        // Over a span of 0.5 m friction changes by 3 · 0.5 · 0.5 = 0.75 of itself along a slope; a wave of three times
+        // friction would push.
+        assert!(fits(0.5) && !fits(50.0));
     }
 }

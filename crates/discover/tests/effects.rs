@@ -4,7 +4,7 @@
 use discover::{Discovery, Options, Verdict, discover};
 use identify::{
     Effect, Hold, Recording, Rig,
-    effects::{Key, Kind, LAWS, Shape, Sign},
+    effects::{Key, Kind, LAWS, Measure, Shape, Sign},
     fit::{Data, binding, models, problem::Problem},
     march::{Drive, Start, Tolerance, march},
     rig::KINDS,
@@ -172,7 +172,7 @@ fn every_effect_says_what_it_is_and_in_what_its_values_are_measured() {
             .unwrap_or_else(|| panic!("{name} applies to no plant"));
         for key in about.keys {
             let unit = about.unit(key.name, rig);
-            let pure = key.measure == identify::effects::Measure::One;
+            let pure = matches!(key.measure, Measure::One | Measure::Amplitude);
             assert_eq!(unit.is_empty(), pure, "{name}.{}: its unit is `{unit}`", key.name);
             let (low, high) = key.bounds();
             assert!(low < high && key.most > 0.0, "{name}.{}: from {low} to {high}", key.name);

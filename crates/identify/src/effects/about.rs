@@ -18,6 +18,8 @@ pub enum Channel {
 pub enum Measure {
     /// A pure number.
     One,
+    /// The amplitude of a wave, a pure number: of a long one a record sees a part, and the rest may be anything.
+    Amplitude,
     /// The drive's own unit: A, V, N or N·m.
     Input,
     /// N or N·m.
@@ -162,7 +164,7 @@ impl Context {
     /// The natural size of a measure.
     pub fn size(&self, measure: Measure) -> f64 {
         match measure {
-            Measure::One => 1.0,
+            Measure::One | Measure::Amplitude => 1.0,
             Measure::Input => self.input,
             Measure::Force => self.force,
             Measure::Pull => self.pull,
@@ -215,7 +217,7 @@ impl About {
         let turns = Plant::of(rig.kind).is_some_and(Plant::turns);
         let by = |turned: &'static str, slid: &'static str| if turns { turned } else { slid };
         match key.measure {
-            Measure::One => "",
+            Measure::One | Measure::Amplitude => "",
             Measure::Input => {
                 match ["current", "voltage"].iter().find(|c| rig.channels.contains_key(**c)) {
                     Some(&"current") => "A",

@@ -11,7 +11,7 @@ impl Law for PositionFriction {
         name: "position_friction",
         physics: "Friction differs from place to place.",
         channel: Channel::Torque,
-        keys: &[Key::amount("sine", Measure::One, 0.9), Key::amount("cosine", Measure::One, 0.9), Key::fitted("wavenumber", Measure::Wavenumber)],
+        keys: &[Key::amount("sine", Measure::Amplitude, 0.9), Key::amount("cosine", Measure::Amplitude, 0.9), Key::fitted("wavenumber", Measure::Wavenumber)],
         probes: |c| super::wavenumbers(c, 6),
         applies: rubs,
         confused: &["load_friction", "friction_drift"],
