@@ -3,9 +3,8 @@
 use identify::{
     Hold, Rig,
     fit::binding,
-    march::{Drive, Model, Motion, Start, Tolerance, march, replay},
+    march::{Drive, Dual, Model, Motion, Start, Tolerance, march, replay},
 };
-use num_dual::DualSVec64;
 
 const PLANTS: [(&str, &str, &[&str]); 4] = [
     (
@@ -77,15 +76,15 @@ fn moved(rig: &Rig, name: &str, to: f64, time: &[f64], rtol: f64) -> Motion {
 /// The derivatives of q at every sample by one parameter.
 fn replayed(rig: &Rig, name: &str, time: &[f64], motion: &Motion) -> Vec<f64> {
     let value = rig.value(name).expect("a value");
-    let model: Model<DualSVec64<2>> =
-        binding::model(rig, &|key| (key == name).then(|| DualSVec64::from_re(value).derivative(0)));
+    let model: Model<Dual<2>> =
+        binding::model(rig, &|key| (key == name).then(|| Dual::variable(value, 0)));
     let u = drive(time);
     let start =
         Start { q: 0.05.into(), v: 0.2.into(), z: vec![0.01.into(); model.contact.states()] };
     let drive = Drive::Recorded { values: &u, hold: Hold::Linear };
     let mut by = Vec::new();
     replay(&model, (&drive, time), &motion.tape, &start, &mut |_, q, _, _| {
-        by.push(q.eps.0.map_or(0.0, |eps| eps[0]));
+        by.push(q.eps[0]);
     });
     by
 }

@@ -3,9 +3,8 @@
 use identify::{
     Hold, Rig,
     fit::binding,
-    march::{Drive, Model, Motion, Start, Tolerance, march, replay},
+    march::{Drive, Dual, Model, Motion, Start, Tolerance, march, replay},
 };
-use num_dual::DualSVec64;
 
 const MASS: f64 = 1.5;
 const RATIO: f64 = 0.25;
@@ -136,16 +135,15 @@ fn the_derivatives_of_a_motion_with_a_joint_are_those_of_its_differences() {
             let key = format!("{name}.{key}");
             let value = rig.value(&key).expect("a value");
             let here = moved(&rig, (0.0, 0.0), &time, 2.0);
-            let model: Model<DualSVec64<2>> = binding::model(&rig, &|own| {
-                (own == key).then(|| DualSVec64::from_re(value).derivative(0))
-            });
+            let model: Model<Dual<2>> =
+                binding::model(&rig, &|own| (own == key).then(|| Dual::variable(value, 0)));
             let drive = vec![2.0; time.len()];
             let drive = Drive::Recorded { values: &drive, hold: Hold::Linear };
-            let zero = DualSVec64::<2>::from(0.0);
+            let zero = Dual::<2>::from(0.0);
             let start = Start { q: zero, v: zero, z: vec![zero; model.states()] };
             let mut by = Vec::new();
             replay(&model, (&drive, &time), &here.tape, &start, &mut |_, q, _, _| {
-                by.push(q.eps.0.map_or(0.0, |eps| eps[0]));
+                by.push(q.eps[0]);
             });
             let to = |value: f64| {
                 let mut rig = rig.clone();

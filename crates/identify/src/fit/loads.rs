@@ -1,9 +1,11 @@
 //! The load cells of a drum, which see the springs and no friction.
 
 use super::{binding::terms, problem::Problem};
-use crate::effects::{Load, Term};
+use crate::{
+    effects::{Load, Term},
+    march::Dual,
+};
 use nalgebra::DMatrix;
-use num_dual::Dual64;
 
 impl Problem<'_> {
     /// The load cells, and then what holds some of the variables near their values.
@@ -38,7 +40,7 @@ impl Problem<'_> {
         let (r, r_free) = value("radius");
         let samples: Vec<usize> = self.windows.iter().flat_map(|w| w.first..w.end).collect();
         let by_effects = self.effects_by_free(x);
-        let given = terms::<Dual64>(self.rig, &|_| None);
+        let given = terms::<Dual<1>>(self.rig, &|_| None);
         let mut jacobian = DMatrix::zeros(2 * samples.len(), self.free.len());
         let mut residuals = Vec::with_capacity(2 * samples.len());
         for (cell, side) in [(0, 1.0), (1, -1.0)] {
@@ -49,9 +51,9 @@ impl Problem<'_> {
                 let row = residuals.len();
                 let load = Load { cell, t: self.data.time[*i], stretch, radius: r };
                 let nominal = f + k * stretch;
-                let shown = |terms: &[Term<Dual64>]| {
+                let shown = |terms: &[Term<Dual<1>>]| {
                     let all = terms.iter();
-                    all.fold(Dual64::from(nominal), |force, e| e.kind.load(&e.p, &load, force))
+                    all.fold(Dual::from(nominal), |force, e| e.kind.load(&e.p, &load, force))
                 };
                 let force = match by_effects.first() {
                     Some((_, terms)) => shown(terms).re,
@@ -59,7 +61,7 @@ impl Problem<'_> {
                 };
                 residuals.push((force - loads[cell].values[*i]) / self.weights.loads[cell]);
                 for (j, terms) in &by_effects {
-                    jacobian[(row, *j)] = shown(terms).eps / self.weights.loads[cell];
+                    jacobian[(row, *j)] = shown(terms).eps[0] / self.weights.loads[cell];
                 }
                 for (free, by) in [(k_free, stretch), (f_free, 1.0), (r_free, k * stretch / r)] {
                     if let Some(j) = free {
@@ -73,15 +75,15 @@ impl Problem<'_> {
     }
 
     /// The effects with derivatives by one of the free parameters of an effect each, and its place.
-    fn effects_by_free(&self, x: &[f64]) -> Vec<(usize, Vec<Term<Dual64>>)> {
+    fn effects_by_free(&self, x: &[f64]) -> Vec<(usize, Vec<Term<Dual<1>>>)> {
         let of_effect = (0..self.free.len()).filter(|j| self.free[*j].name.contains('.'));
         let one = |j: usize| {
             let number = |name: &str| {
                 let i = self.free.iter().position(|f| f.name == name)?;
                 let value = self.free[i].value(x[i]);
-                let mut number = Dual64::from_re(value);
+                let mut number = Dual::from(value);
                 if i == j {
-                    number.eps = self.free[i].slope(value);
+                    number.eps[0] = self.free[i].slope(value);
                 }
                 Some(number)
             };

@@ -13,10 +13,9 @@ pub use super::{
 };
 use crate::{
     Rig,
-    march::{Drive, Feedback, Model, Motion, Real, Start, Tape, Tolerance, march, part, replay},
+    march::{Drive, Dual, Feedback, Model, Motion, Real, Start, Tape, Tolerance, march, replay},
 };
 use nalgebra::{DMatrix, DMatrixViewMut};
-use num_dual::DualSVec64;
 use rayon::prelude::*;
 
 /// A record, a rig and what of it is free: the least-squares problem of the fit.
@@ -100,16 +99,16 @@ impl Problem<'_> {
     }
 
     /// The model with derivatives by the variables from `first` on in its first places.
-    fn model_with<const P: usize>(&self, x: &[f64], first: usize) -> Model<DualSVec64<P>> {
+    fn model_with<const P: usize>(&self, x: &[f64], first: usize) -> Model<Dual<P>> {
         self.model_of(&|i| {
             let value = self.free[i].value(x[i]);
             match i.checked_sub(first) {
                 Some(place) if place < P - 1 => {
-                    let mut number = DualSVec64::from_re(value).derivative(place);
-                    number.eps *= self.free[i].slope(value);
+                    let mut number = Dual::from(value);
+                    number.eps[place] = self.free[i].slope(value);
                     number
                 }
-                _ => DualSVec64::from(value),
+                _ => Dual::from(value),
             }
         })
     }
@@ -327,9 +326,9 @@ impl Problem<'_> {
         let model = self.model_with::<P>(x, first);
         let range = window.first..window.end;
         let many = jacobian.ncols();
-        let mut write = |row: usize, value: &DualSVec64<P>, weight: f64| {
+        let mut write = |row: usize, value: &Dual<P>, weight: f64| {
             for place in 0..many {
-                jacobian[(row, place)] = part(value, place) / weight;
+                jacobian[(row, place)] = value.eps[place] / weight;
             }
         };
         if let Some(force) = &self.data.force {
@@ -347,8 +346,8 @@ impl Problem<'_> {
             return;
         }
         let seed = |value: f64, column: usize| match column.checked_sub(first) {
-            Some(place) if place < P - 1 => DualSVec64::from_re(value).derivative(place),
-            _ => DualSVec64::from(value),
+            Some(place) if place < P - 1 => Dual::variable(value, place),
+            _ => Dual::from(value),
         };
         let n = self.free.len();
         let start = std::array::from_fn(|i| seed(piece.start[i], n + i));

@@ -1,7 +1,6 @@
 //! The friction of one stage: its states and its force as functions of the stage's velocity alone.
 
 use super::{Real, size};
-use num_dual::DualStruct;
 
 /// A friction model without its viscous term, in numbers that may carry derivatives.
 #[derive(Debug, Clone, PartialEq)]
@@ -202,7 +201,7 @@ impl<D: Real> Contact<D> {
             Self::None | Self::Coulomb { .. } => 0.0,
             Self::Dahl { f_c, sigma, .. } => f_c.re() / sigma.re(),
             Self::LuGre { f_c, f_s, sigma_0, .. } => f_c.re().max(f_s.re()) / sigma_0.re(),
-            Self::MaxwellSlip { delta, .. } => delta.iter().map(DualStruct::re).fold(0.0, f64::max),
+            Self::MaxwellSlip { delta, .. } => delta.iter().map(Real::re).fold(0.0, f64::max),
         }
     }
 
@@ -218,7 +217,7 @@ impl<D: Real> Contact<D> {
             Self::LuGre { f_c, sigma_0, .. } => f_c.re() / sigma_0.re(),
             Self::Dahl { .. } => self.memory(),
             Self::MaxwellSlip { delta, .. } => {
-                delta.iter().map(DualStruct::re).fold(f64::INFINITY, f64::min)
+                delta.iter().map(Real::re).fold(f64::INFINITY, f64::min)
             }
         }
     }

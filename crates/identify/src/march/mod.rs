@@ -13,6 +13,7 @@
 
 mod contact;
 mod drive;
+mod dual;
 mod observer;
 mod plant;
 mod replay;
@@ -24,19 +25,12 @@ mod tape;
 pub use contact::Contact;
 pub(crate) use contact::deflection;
 pub use drive::{Drive, Feedback};
+pub use dual::{Dual, Real};
 pub use observer::{Measured, observe};
 pub use plant::{Balance, Model};
-pub(crate) use replay::part;
 pub use replay::replay;
 pub use run::{MotionError, Start, Tolerance, march};
 pub use tape::{Motion, Tape};
-
-use num_dual::{DualNum, DualStruct};
-
-/// A number that may carry derivatives.
-pub trait Real: DualNum<Primitive = f64> + DualStruct<Real = f64> + Copy {}
-
-impl<D: DualNum<Primitive = f64> + DualStruct<Real = f64> + Copy> Real for D {}
 
 /// The absolute value, whose derivative at zero is that from the right.
 fn size<D: Real>(x: D) -> D {

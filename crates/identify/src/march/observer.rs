@@ -6,12 +6,11 @@
 //! many to each interval; the friction of each follows in closed form, as in [`super::march`].
 
 use super::{
-    Drive, Model,
+    Drive, Dual, Model,
     plant::Stage,
     run::{inputs, rate},
     stage::{Base, Seek, velocity},
 };
-use num_dual::Dual64;
 
 /// A measured motion.
 #[derive(Debug, Clone, Copy)]
@@ -42,10 +41,10 @@ pub fn observe(
     let mut model = model.clone();
     model.effects.retain(|e| !e.kind.joins(&e.p));
     let model = &model;
-    let mut probe = model.map(Dual64::from);
-    probe.balance.damping += strength;
+    let mut probe = model.map(Dual::from);
+    probe.balance.damping += Dual::from(strength);
     if !measured.pull.is_empty() {
-        probe.balance.stiffness = Dual64::from(0.0);
+        probe.balance.stiffness = Dual::from(0.0);
     }
     let constant = probe.balance.constant.re;
     let mut z = start(model, drive, measured);
@@ -63,17 +62,17 @@ pub fn observe(
             let between = |values: &[f64]| values[i] + share * (values[i + 1] - values[i]);
             let pull = if measured.pull.is_empty() { constant } else { between(measured.pull) };
             let toward = between(measured.v) - shown;
-            probe.balance.constant = Dual64::from(pull + strength * toward);
+            probe.balance.constant = Dual::from(pull + strength * toward);
             let h = dt / STEPS as f64;
             let stage = Stage {
                 t: measured.time[i] + share * dt,
                 dt: h,
-                u: Dual64::from(ends[0] + share * (ends[1] - ends[0])),
+                u: Dual::from(ends[0] + share * (ends[1] - ends[0])),
             };
             let base = Base {
-                q: Dual64::from(between(measured.q) - v * h),
-                v: Dual64::from(v),
-                z: z.iter().map(|z| Dual64::from(*z)).collect(),
+                q: Dual::from(between(measured.q) - v * h),
+                v: Dual::from(v),
+                z: z.iter().map(|z| Dual::from(*z)).collect(),
             };
             let mut next = base.z.clone();
             let seek = Seek { guess: v, close: 0.0, way: None };
@@ -91,10 +90,15 @@ pub fn observe(
 }
 
 /// The states of contact and effects at the velocity `v` of a step.
-fn settled(model: &Model<Dual64>, base: &Base<Dual64>, stage: &Stage<Dual64>, v: f64) -> Vec<f64> {
+fn settled(
+    model: &Model<Dual<1>>,
+    base: &Base<Dual<1>>,
+    stage: &Stage<Dual<1>>,
+    v: f64,
+) -> Vec<f64> {
     let mut z = base.z.clone();
     let way = if v == 0.0 { 0.0 } else { v.signum() };
-    let v = Dual64::from(v);
+    let v = Dual::from(v);
     model.force(stage, &base.z, (base.q + v * stage.dt, v, way), &mut z);
     z.iter().map(|z| z.re).collect()
 }

@@ -1,38 +1,37 @@
 //! The same steps once more, with derivatives.
 
 use super::{
-    Drive, Model, Start, Tape,
+    Drive, Dual, Model, Real, Start, Tape,
     plant::Stage,
     run::{inputs, rate},
     stage::{Base, excess},
     tableau::{A, C, GAMMA},
     tape::Step,
 };
-use num_dual::{Derivative, DualSVec64, DualStruct};
 
 /// Goes over the steps of `tape` with numbers that carry derivatives in their first P − 1 places; the last one
 /// belongs to the stages. Calls `see(i, q, v, u)` at every sample.
 ///
 /// With G(v, p) = 0 the balance of a stage, ∂v/∂p = −(∂G/∂p)/(∂G/∂v).
 pub fn replay<const P: usize>(
-    model: &Model<DualSVec64<P>>,
+    model: &Model<Dual<P>>,
     (drive, time): (&Drive<'_>, &[f64]),
     tape: &Tape,
-    start: &Start<DualSVec64<P>>,
-    see: &mut dyn FnMut(usize, DualSVec64<P>, DualSVec64<P>, DualSVec64<P>),
+    start: &Start<Dual<P>>,
+    see: &mut dyn FnMut(usize, Dual<P>, Dual<P>, Dual<P>),
 ) {
     let samples = tape.until.len() + 1;
     let mut state = start.clone();
     let mut seen = Vec::with_capacity(3);
     let mut walker = Again::new(model);
-    let mut memory = vec![DualSVec64::<P>::from(0.0); model.effects.len()];
-    let mut sensed = |i: usize, [q, v, moved, slope]: [DualSVec64<P>; 4], u: DualSVec64<P>| {
+    let mut memory = vec![Dual::<P>::from(0.0); model.effects.len()];
+    let mut sensed = |i: usize, [q, v, moved, slope]: [Dual<P>; 4], u: Dual<P>| {
         let dt = if i == 0 { 0.0 } else { time[i] - time[i - 1] };
         let rate = model.balance.gain.re() * rate(drive, time, i);
         let [q, v] = model.senses([q, v, moved, slope], [rate, dt], &mut memory);
         see(i, q, v, u);
     };
-    let mut before: Option<[DualSVec64<P>; 3]> = None;
+    let mut before: Option<[Dual<P>; 3]> = None;
     let mut next = 0;
     for i in 0..samples {
         if seen.len() == 3 {
@@ -42,8 +41,8 @@ pub fn replay<const P: usize>(
         seen.push(shown);
         let ends = inputs(drive, i, &seen, model.delay().map(|delay| (delay, time)));
         // How fast the first velocity changes is told by the second.
-        let slope = |v: DualSVec64<P>| (state.v - v) / (time[i] - time[i - 1]);
-        let zero = DualSVec64::<P>::from(0.0);
+        let slope = |v: Dual<P>| (state.v - v) / (time[i] - time[i - 1]);
+        let zero = Dual::<P>::from(0.0);
         match before {
             Some([q, v, u]) if i == 1 => {
                 sensed(0, [q, v, zero, slope(v)], u);
@@ -66,15 +65,15 @@ pub fn replay<const P: usize>(
 }
 
 struct Again<'a, const P: usize> {
-    model: &'a Model<DualSVec64<P>>,
-    base: Base<DualSVec64<P>>,
-    z_dot: [Vec<DualSVec64<P>>; 3],
-    z: Vec<DualSVec64<P>>,
+    model: &'a Model<Dual<P>>,
+    base: Base<Dual<P>>,
+    z_dot: [Vec<Dual<P>>; 3],
+    z: Vec<Dual<P>>,
 }
 
 impl<'a, const P: usize> Again<'a, P> {
-    fn new(model: &'a Model<DualSVec64<P>>) -> Self {
-        let zero = DualSVec64::<P>::from(0.0);
+    fn new(model: &'a Model<Dual<P>>) -> Self {
+        let zero = Dual::<P>::from(0.0);
         let none = vec![zero; model.states()];
         Self {
             model,
@@ -86,13 +85,13 @@ impl<'a, const P: usize> Again<'a, P> {
 
     fn step(
         &mut self,
-        state: &mut Start<DualSVec64<P>>,
+        state: &mut Start<Dual<P>>,
         step: &Step,
         [dt, t]: [f64; 2],
-        ends: [DualSVec64<P>; 2],
+        ends: [Dual<P>; 2],
     ) {
         let (h, gh) = (step.h, GAMMA * step.h);
-        let zero = DualSVec64::<P>::from(0.0);
+        let zero = Dual::<P>::from(0.0);
         let (mut q_dot, mut v_dot) = ([zero; 3], [zero; 3]);
         for s in 0..3 {
             (self.base.q, self.base.v) = (state.q, state.v);
@@ -120,32 +119,27 @@ impl<'a, const P: usize> Again<'a, P> {
     }
 
     /// The velocity of a stage with its derivatives; leaves the stage's states in `self.z`.
-    fn velocity(&mut self, stage: &Stage<DualSVec64<P>>, [v, way]: [f64; 2]) -> DualSVec64<P> {
+    fn velocity(&mut self, stage: &Stage<Dual<P>>, [v, way]: [f64; 2]) -> Dual<P> {
         let sticks = self.model.sticks();
         if sticks && way == 0.0 {
             // What is beside the mass may move on.
-            let held = DualSVec64::from(0.0);
+            let held = Dual::from(0.0);
             excess(self.model, &self.base, stage, (held, 0.0), &mut self.z);
             return held;
         }
-        let alone = DualSVec64::<P>::from_re(v).derivative(P - 1);
+        let alone = Dual::<P>::variable(v, P - 1);
         let way = if sticks { way } else { 0.0 };
         let balance = excess(self.model, &self.base, stage, (alone, way), &mut self.z);
-        let slope = -part(&balance, P - 1).recip();
-        let mut by = balance.eps.unwrap_generic(nalgebra::Const::<P>, nalgebra::U1) * slope;
+        let slope = -balance.eps[P - 1].recip();
+        let mut by = balance.eps.map(|e| e * slope);
         by[P - 1] = 0.0;
         for z in &mut self.z {
-            let follows = part(z, P - 1);
-            let mut eps = z.eps.unwrap_generic(nalgebra::Const::<P>, nalgebra::U1);
-            eps += by * follows;
-            eps[P - 1] = 0.0;
-            *z = DualSVec64::new(z.re(), Derivative::some(eps));
+            let follows = z.eps[P - 1];
+            for (eps, by) in z.eps.iter_mut().zip(by) {
+                *eps += by * follows;
+            }
+            z.eps[P - 1] = 0.0;
         }
-        DualSVec64::new(v, Derivative::some(by))
+        Dual { re: v, eps: by }
     }
-}
-
-/// The derivative of `x` in place `i`.
-pub(crate) fn part<const P: usize>(x: &DualSVec64<P>, i: usize) -> f64 {
-    x.eps.0.map_or(0.0, |eps| eps[i])
 }

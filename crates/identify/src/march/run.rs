@@ -1,14 +1,13 @@
 //! From sample to sample, with steps as short as the error asks for.
 
 use super::{
-    Drive, Model,
+    Drive, Dual, Model,
     plant::Stage,
     stage::{Base, Seek, velocity},
     tableau::{A, C, ERROR, GAMMA},
     tape::{Motion, Step, Tape},
 };
 use crate::Hold;
-use num_dual::Dual64;
 
 /// The state at the first sample.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,8 +52,11 @@ pub enum MotionError {
     },
 }
 
-/// The last Newton step for a stage's velocity, of what the velocity may be wrong by.
-const NEAR: f64 = 1e-5;
+/// The last Newton step for a stage's velocity, of what the velocity may be wrong by: what it leaves is of its square.
+const NEAR: f64 = 1e-3;
+
+/// How slow the plant is where it turns, of the same.
+const TURNED: f64 = 1e-5;
 
 /// The shortest step, as a share of a sample interval; there the error is no longer asked for.
 const SHORTEST: f64 = 1e-6;
@@ -162,7 +164,7 @@ fn late<D: super::Real>(
         Hold::ZeroOrder => {
             // The step within the interval, as the line that has its mean and its first moment.
             let step = at(i) - D::from(values[i.saturating_sub(back + 1)]);
-            let half = step * part * (D::one() - part) * 3.0;
+            let half = step * part * (-part + 1.0) * 3.0;
             [between(i) - half, between(i) + half]
         }
     }
@@ -170,19 +172,21 @@ fn late<D: super::Real>(
 
 struct Walker<'a> {
     model: &'a Model<f64>,
-    probe: Model<Dual64>,
+    probe: Model<Dual<1>>,
     tolerance: &'a Tolerance,
     /// What a step may be wrong by in each state of contact and effects.
     allowed: Vec<f64>,
     q: f64,
     v: f64,
+    /// How fast the velocity changed last [m/s²].
+    v_dot: f64,
     z: Vec<f64>,
     h: f64,
     /// Derivatives of the states of the contact in the three stages, and scratch.
     z_dot: [Vec<f64>; 3],
     z_stage: Vec<f64>,
-    base: Base<Dual64>,
-    z_probe: Vec<Dual64>,
+    base: Base<Dual<1>>,
+    z_probe: Vec<Dual<1>>,
 }
 
 /// What a step leads to.
@@ -190,25 +194,27 @@ struct Attempt {
     step: Step,
     q: f64,
     v: f64,
+    v_dot: f64,
     error: f64,
 }
 
 impl<'a> Walker<'a> {
     fn new(model: &'a Model<f64>, start: &Start<f64>, tolerance: &'a Tolerance) -> Self {
         let n = model.states();
-        let none = vec![Dual64::from(0.0); n];
+        let none = vec![Dual::from(0.0); n];
         Self {
             model,
-            probe: model.map(Dual64::from),
+            probe: model.map(Dual::from),
             tolerance,
             allowed: model.allowed(tolerance),
             q: start.q,
             v: start.v,
+            v_dot: 0.0,
             z: start.z.clone(),
             h: f64::INFINITY,
             z_dot: std::array::from_fn(|_| vec![0.0; n]),
             z_stage: vec![0.0; n],
-            base: Base { q: Dual64::from(0.0), v: Dual64::from(0.0), z: none.clone() },
+            base: Base { q: Dual::from(0.0), v: Dual::from(0.0), z: none.clone() },
             z_probe: none,
         }
     }
@@ -256,7 +262,7 @@ impl<'a> Walker<'a> {
     }
 
     fn take(&mut self, attempt: &Attempt, tape: &mut Tape) {
-        (self.q, self.v) = (attempt.q, attempt.v);
+        (self.q, self.v, self.v_dot) = (attempt.q, attempt.v, attempt.v_dot);
         self.z.copy_from_slice(&self.z_stage);
         tape.steps.push(attempt.step);
     }
@@ -283,21 +289,26 @@ impl<'a> Walker<'a> {
                 for (a, z_dot) in A[s].iter().zip(&self.z_dot).take(s) {
                     sum += h * a * z_dot[i];
                 }
-                self.base.z[i] = Dual64::from(sum);
+                self.base.z[i] = Dual::from(sum);
             }
-            (self.base.q, self.base.v) = (Dual64::from(base[0]), Dual64::from(base[1]));
+            (self.base.q, self.base.v) = (Dual::from(base[0]), Dual::from(base[1]));
             let u = ends[0] + (ends[1] - ends[0]) * ((from + C[s] * h) / dt);
-            let stage = Stage { t: t + from + C[s] * h, dt: gh, u: Dual64::from(u) };
-            let seek = Seek { guess: v, close: NEAR * self.tolerance.v, way };
+            let stage = Stage { t: t + from + C[s] * h, dt: gh, u: Dual::from(u) };
+            // As fast as it would be if it went on to gain speed as in the stage before.
+            let guess = base[1] + gh * if s == 0 { self.v_dot } else { v_dot[s - 1] };
+            let seek = Seek { guess, close: NEAR * self.tolerance.v, way };
             let (root, way) = velocity(&self.probe, &self.base, &stage, seek, &mut self.z_probe)?;
             v = root;
             (step.v[s], step.way[s]) = (v, way);
             v_dot[s] = (v - base[1]) / gh;
             q = base[0] + gh * v;
-            self.states_of_stage(s, &stage, (q, v));
+            for (i, z) in self.z_probe.iter().enumerate() {
+                self.z_stage[i] = z.re;
+                self.z_dot[s][i] = (z.re - self.base.z[i].re) / gh;
+            }
         }
         let error = self.error(h, [step.v, v_dot]);
-        (q.is_finite() && v.is_finite()).then_some(Attempt { step, q, v, error })
+        (q.is_finite() && v.is_finite()).then_some(Attempt { step, q, v, v_dot: v_dot[2], error })
     }
 
     /// The attempt itself, or, where Coulomb friction turns or stops the motion in it, the step up to there.
@@ -323,7 +334,7 @@ impl<'a> Walker<'a> {
         for _ in 0..60 {
             let mut there = self.attempt([from, h, dt, t], ends, Some(way))?;
             let slope = (there.v - self.v) / h;
-            if there.v.abs() <= NEAR * self.tolerance.v || long - short <= f64::EPSILON * long {
+            if there.v.abs() <= TURNED * self.tolerance.v || long - short <= f64::EPSILON * long {
                 let u = ends[0] + (ends[1] - ends[0]) * ((from + h) / dt);
                 let stage = Stage { t: t + from + h, dt: 0.0, u };
                 let [before, after] = [way, -way].map(|way| self.pull(&stage, there.q, way));
@@ -348,19 +359,6 @@ impl<'a> Walker<'a> {
         let z = self.z_stage.clone();
         let mut scratch = z.clone();
         self.model.force(stage, &z, (q, 0.0, way), &mut scratch)
-    }
-
-    fn states_of_stage(&mut self, s: usize, stage: &Stage<Dual64>, (q, v): (f64, f64)) {
-        if self.z.is_empty() {
-            return;
-        }
-        let base: Vec<f64> = self.base.z.iter().map(|z| z.re).collect();
-        let (t, dt) = (stage.t, stage.dt);
-        let stage = Stage { t, dt, u: stage.u.re };
-        self.model.force(&stage, &base, (q, v, 0.0), &mut self.z_stage);
-        for (i, z) in self.z_stage.iter().enumerate() {
-            self.z_dot[s][i] = (z - base[i]) / dt;
-        }
     }
 
     /// The estimated error of a step, of what is allowed.

@@ -1,7 +1,6 @@
 //! One stage: the velocity for which force and momentum balance.
 
-use super::{Model, Real, plant::Stage};
-use num_dual::Dual64;
+use super::{Dual, Model, Real, plant::Stage};
 
 /// Where a stage starts from: the states it would have if nothing happened in its own share of the step.
 #[derive(Debug, Clone)]
@@ -39,19 +38,35 @@ pub(super) struct Seek {
 }
 
 /// The velocity of a stage [m/s] and the direction in which it slides, 0 where Coulomb friction holds it; none
-/// if there is no finite one.
+/// if there is no finite one. The states at that velocity go to `z`: those where it was looked for last, moved along
+/// their slopes.
 pub(super) fn velocity(
-    model: &Model<Dual64>,
-    base: &Base<Dual64>,
-    stage: &Stage<Dual64>,
+    model: &Model<Dual<1>>,
+    base: &Base<Dual<1>>,
+    stage: &Stage<Dual<1>>,
     seek: Seek,
-    z: &mut [Dual64],
+    z: &mut [Dual<1>],
 ) -> Option<(f64, f64)> {
-    let mut at = |v: f64, way: f64| {
-        let g = excess(model, base, stage, (Dual64::from_re(v).derivative(), way), z);
-        (g.re, g.eps)
-    };
-    if !model.sticks() {
+    let mut last = 0.0;
+    let found = sought(seek, model.sticks(), |v, way| {
+        last = v;
+        let g = excess(model, base, stage, (Dual::variable(v, 0), way), z);
+        (g.re, g.eps[0])
+    });
+    let (v, _) = found?;
+    for z in z {
+        z.re += z.eps[0] * (v - last);
+    }
+    found
+}
+
+/// Where the excess `at` a velocity and a direction vanishes, and in which direction; 0 where friction that `sticks` holds.
+fn sought(
+    seek: Seek,
+    sticks: bool,
+    mut at: impl FnMut(f64, f64) -> (f64, f64),
+) -> Option<(f64, f64)> {
+    if !sticks {
         return root(|v| at(v, 0.0), seek, None).map(|v| (v, v.signum()));
     }
     if let Some(way) = seek.way {
