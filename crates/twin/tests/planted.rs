@@ -3,7 +3,7 @@
 #[allow(dead_code, reason = "each test file uses some of it")]
 mod common;
 
-use common::{Stage, span};
+use common::{FRICTION, Stage, span};
 use twin::{HiddenEffect, Scenario, make_hidden};
 
 /// Every effect with values at which it does nothing.
@@ -126,5 +126,28 @@ fn two_tolerances_agree_to_a_millionth_of_the_span_whatever_is_hidden() {
             };
             assert!(far < limit, "{stage:?}\n{effect}\nmoves by {far:.1e} of the span");
         }
+    }
+}
+
+#[test]
+fn an_imposed_motion_that_rests_first_is_relaxed_until_it_moves() {
+    // Rest, forth, rest, back, rest.
+    let input = "\n[[input.part]]\nshape = 'ramps'\ntimes = [0.0, 0.5, 0.7, 1.2, 1.3, 2.0]\n\
+        values = [0.0, 0.0, 0.02, 0.02, -0.01, -0.01]\n";
+    let sensor = "\n[[sensor]]\nquantity = 'force'\ncolumn = 'force'\n";
+    for friction in FRICTION {
+        let made = |effect: &str| {
+            let text = format!(
+                "title = 't'\nduration = 2.0\nrate = 100.0\n[plant]\nkind = 'prescribed'\n[friction]\n{friction}\n\
+                 {input}{sensor}{effect}"
+            );
+            twin::make(&Scenario::parse(&text).unwrap(), 1).unwrap()
+        };
+        let without = made("");
+        let with = made("\n[[hidden]]\nname = 'viscous'\nsigma_2 = 0.0\n");
+        let force = &with.clean[1].1;
+        assert!(force[..50].iter().all(|f| *f == 0.0), "{friction}: {} N at rest", force[20]);
+        let far = apart(&without, &with);
+        assert!(far < 1e-6, "{friction}\nis off by {far:.1e} of the span");
     }
 }

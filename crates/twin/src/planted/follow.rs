@@ -55,9 +55,11 @@ impl<'a> Followed<'a> {
     pub(crate) fn follow(&mut self, leg: Leg<'a>, end: f64) -> Result<(), TwinError> {
         self.plant.leg = leg;
         if self.plant.balance.is_none() && self.plant.way == 0.0 && end > self.t {
-            // An imposed motion starts relaxed, and then goes the way it is moved.
+            // An imposed motion starts relaxed, and then goes the way it is moved, once it is.
             let (from, to) = (leg.at(self.t).0, leg.at(f64::midpoint(self.t, end)).0);
-            self.plant.turn(from, (to - from).signum());
+            if to != from {
+                self.plant.turn(from, (to - from).signum());
+            }
         }
         let mut idle = 0;
         while self.t < end {
