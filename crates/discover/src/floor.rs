@@ -142,6 +142,10 @@ fn one(
         let drawn: f64 = StandardNormal.sample(&mut random);
         *u += noise * drawn;
     }
+    if board.imposed() {
+        // It is seen as the record itself is: where it rests, noise does not shake it.
+        data = crate::rest::rested(&data);
+    }
     let other = Board { data: &data, ..board.clone() };
     let problem = other.problem(rig, |_| true)?;
     let pieces = models::settled(&problem, &[], Some(undisturbed), 1);
@@ -260,7 +264,10 @@ fn by_middle(mut values: Vec<f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{ChaCha8Rng, Distribution, SeedableRng, Seen, StandardNormal, noise};
+    use super::{
+        Board, ChaCha8Rng, Data, Distribution, Rig, SeedableRng, Seen, StandardNormal, noise,
+        spread,
+    };
 
     #[test]
     fn the_noise_of_an_encoder_is_that_of_its_steps() {
@@ -290,5 +297,41 @@ mod tests {
         let found = noise(&Seen::new("position", values, 1.0), median);
         let truth = 0.2_f64.hypot(1.0 / 12f64.sqrt());
         assert!((found / truth - 1.0).abs() < 0.1, "{found}, in truth {truth}");
+    }
+
+    #[test]
+    fn noise_does_not_shake_an_imposed_motion_at_rest() {
+        // Half a second of rest and half a second of motion in turn, forth and back; displacement to 1 µm.
+        let mut random = ChaCha8Rng::seed_from_u64(3);
+        let mut noise = |size: f64| -> f64 {
+            let drawn: f64 = StandardNormal.sample(&mut random);
+            size * drawn
+        };
+        let rests = |i: usize| i % 200 < 100;
+        let way = |i: usize| if i % 400 < 200 { 1.0 } else { -1.0 };
+        let (mut x, mut last) = (0.0, 0.0);
+        let (mut input, mut force) = (Vec::new(), Vec::new());
+        for i in 0..8000 {
+            if !rests(i) {
+                (x, last) = (x + 1e-4 * way(i), way(i));
+            }
+            input.push(x + noise(1e-6));
+            force.push(1.5 * last + noise(1e-3));
+        }
+        let time = (0..8000).map(|i| 0.005 * f64::from(i)).collect();
+        let seen = Seen::new("force", force, 0.0);
+        let driven = Data::driven(time, input, identify::Hold::Linear, seen.clone());
+        let data = Data { displacement: None, force: Some(seen), ..driven };
+        let data = crate::rest::rested(&data);
+        let rig = "title = \"a slide\"\n[plant]\nkind = \"prescribed\"\n[friction]\nname = \"coulomb\"\nf_c = 1.5\n\
+            [channels]\ntime = \"t\"\ndisplacement = \"x\"\nforce = \"f\"\n";
+        let rig = Rig::parse(rig).unwrap();
+        let board = Board::of(&rig, &data, 1, Vec::new()).unwrap();
+        let fitted = board.judged(&rig, None).unwrap();
+        let all = spread(&board, &fitted, 1).unwrap();
+        // Away from the turns, whose time noise does move.
+        let resting = (0..8000).filter(|i| (20..80).contains(&(i % 200)));
+        let worst = resting.map(|i| all[i][0]).fold(0.0, f64::max);
+        assert!(worst < 1e-3, "{worst} N of 1.5 N");
     }
 }
