@@ -21,7 +21,7 @@ pub(super) fn forces<D: Real>(
     let corners = corners(u);
     let velocity = |i: usize| velocity(time, (u, &corners), i);
     let viscous = |i: usize| model.sigma_2 * velocity(i) + model.offset;
-    let mut z = model.contact.holding(-viscous(0) + seen);
+    let mut z = model.contact.holding(begun(&model.contact, -viscous(0) + seen, velocity(0)));
     let mut direction = 0.0;
     let mut aged = model.effects_from(0.0, &[]);
     for i in 0..u.len() {
@@ -37,15 +37,8 @@ pub(super) fn forces<D: Real>(
         }
         if i > 0 {
             let mut last = u[i - 1];
-            for piece in 1..=PIECES {
-                let share = piece as f64 / PIECES as f64;
-                let next = if piece == PIECES { u[i] } else { between((u, &corners), i, share) };
-                slide(
-                    &model.contact,
-                    &mut z,
-                    next - last,
-                    ((next - last) * PIECES as f64 / dt, act.rise),
-                );
+            for (next, speed) in way(time, (u, &corners), i) {
+                slide(&model.contact, &mut z, next - last, (speed, act.rise));
                 last = next;
             }
             if velocity(i) != 0.0 {
@@ -126,6 +119,50 @@ fn between((u, corners): (&[f64], &[bool]), i: usize, share: f64) -> f64 {
     let bend = share * (share - 1.0) / 6.0;
     straight + bend * ((2.0 - share) * left + (1.0 + share) * right)
 }
+
+/// The pieces of constant velocity on the way from sample `i − 1` to `i`: where each ends [m], and its velocity [m/s].
+fn way(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> Vec<(f64, f64)> {
+    let dt = time[i] - time[i - 1];
+    if let Some(turn) = turned(time, (u, corners), i) {
+        return turn.to_vec();
+    }
+    let mut last = u[i - 1];
+    let piece = |piece: usize| {
+        let share = piece as f64 / PIECES as f64;
+        let next = if piece == PIECES { u[i] } else { between((u, corners), i, share) };
+        let speed = (next - last) * PIECES as f64 / dt;
+        last = next;
+        (next, speed)
+    };
+    (1..=PIECES).map(piece).collect()
+}
+
+/// The same where the way has its corner: where the lines before and after it meet. The motion goes further than any
+/// sample shows, and a contact with it.
+fn turned(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> Option<[(f64, f64); 2]> {
+    if i < 2 || i + 1 >= u.len() || !(corners[i - 1] || corners[i]) {
+        return None;
+    }
+    let slope = |k: usize| (u[k] - u[k - 1]) / (time[k] - time[k - 1]);
+    let (before, after, dt) = (slope(i - 1), slope(i + 1), time[i] - time[i - 1]);
+    let at = (u[i] - u[i - 1] - after * dt) / (before - after);
+    (at > 0.0 && at < dt).then(|| [(u[i - 1] + before * at, before), (u[i], after)])
+}
+
+/// The force [N] that a contact holds at rest in the state in which it shows the `force` at the velocity `v` [m/s].
+fn begun<D: Real>(contact: &Contact<D>, force: D, v: f64) -> D {
+    let Contact::LuGre { f_c, f_s, v_s, sigma_0, sigma_1 } = contact else { return force };
+    let r = deflection([*f_c, *f_s, *sigma_0], v_s.recip() * v);
+    let shown = *sigma_0 - *sigma_1 / r * v.abs();
+    // Where the damping of the bristles undoes their stiffness nothing is seen of them.
+    if shown.re() < HALF * sigma_0.re() {
+        return force;
+    }
+    (force - *sigma_1 * v) / shown * *sigma_0
+}
+
+/// So much of the bristles' force must be seen at the first sample.
+const HALF: f64 = 0.5;
 
 /// The instant as a law sees it, the contact's states being `z`.
 fn at<'a, D: Real>(
@@ -213,6 +250,60 @@ fn force<D: Real>(contact: &Contact<D>, z: &[D], (v, rise): (f64, D), direction:
         }
         Contact::MaxwellSlip { k, .. } => {
             k.iter().zip(z).fold(D::from(0.0), |sum, (k, z)| sum + *k * *z)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Contact, Model, forces};
+    use crate::{Rig, fit::binding};
+
+    const RIG: &str = "title = \"a slide\"\n[plant]\nkind = \"prescribed\"\n[channels]\ntime = \"t\"\n\
+        displacement = \"x\"\nforce = \"f\"\n[friction]\n";
+
+    fn model(friction: &str) -> Model<f64> {
+        binding::model(&Rig::parse(&format!("{RIG}{friction}\n")).unwrap(), &|_| None)
+    }
+
+    /// The forces on a displacement that goes forth with 0.1 m/s, and from 0.1037 s on back with 0.05 m/s.
+    fn forth_and_back(model: &Model<f64>) -> (Vec<f64>, Vec<f64>) {
+        let time: Vec<f64> = (0..41).map(|i| 0.005 * f64::from(i)).collect();
+        let turn = 0.1037;
+        let x = |t: f64| if t < turn { 0.1 * t } else { 0.1 * turn - 0.05 * (t - turn) };
+        let u: Vec<f64> = time.iter().map(|t| x(*t)).collect();
+        let mut seen = Vec::new();
+        forces(model, &time, &u, 0.0, &mut |_, f| seen.push(f));
+        (time, seen)
+    }
+
+    #[test]
+    fn a_turn_between_samples_is_reached() {
+        // An element of 200 N/m that yields at 2 mm: from the turn on it lets go along a line.
+        let model = model("name = \"maxwell-slip\"\nk = [200.0]\ndelta = [2e-3]\nsigma_2 = 0.0");
+        let (time, seen) = forth_and_back(&model);
+        for (t, f) in time.iter().zip(seen).skip(21) {
+            let truth = (0.4 - 200.0 * 0.05 * (t - 0.1037)).max(-0.4);
+            assert!((f - truth).abs() < 1e-12, "{f} N of {truth} N at {t} s");
+        }
+    }
+
+    #[test]
+    fn a_bristle_begins_where_its_first_force_has_it() {
+        // From rest, relaxed, at once with 0.1 m/s: the first force is the damping's alone, σ₁v.
+        let model = model(
+            "name = \"lugre\"\nf_c = 1.0\nf_s = 1.0\nv_s = 0.01\nsigma_0 = 1e3\nsigma_1 = 2.0\nsigma_2 = 0.0",
+        );
+        let Contact::LuGre { sigma_0, sigma_1, .. } = model.contact else { panic!("a bristle") };
+        let time: Vec<f64> = (0..20).map(|i| 0.005 * f64::from(i)).collect();
+        let u: Vec<f64> = time.iter().map(|t| 0.1 * t).collect();
+        let mut seen = Vec::new();
+        forces(&model, &time, &u, sigma_1 * 0.1, &mut |_, f| seen.push(f));
+        for (t, f) in time.iter().zip(seen) {
+            // z = r (1 − exp(−vt/r)) with r = F_C/σ₀, and ż = v exp(−vt/r).
+            let left = (-0.1 * t / 1e-3).exp();
+            let truth = sigma_0 * 1e-3 * (1.0 - left) + sigma_1 * 0.1 * left;
+            assert!((f - truth).abs() < 1e-9, "{f} N of {truth} N at {t} s");
         }
     }
 }
