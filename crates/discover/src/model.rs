@@ -128,6 +128,7 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
     let seen = wave.map_or(1.0, |key| (value(key) * context.span / PI).clamp(f64::EPSILON, 1.0));
     let own = about.keys.iter().all(|key| {
         let value = value(key);
+        let seen = if key.measure == Measure::Amplitude { seen } else { 1.0 };
         let size = context.size(key.measure).max(driven.size(key.measure)) / seen;
         let sign = match key.sign {
             Sign::Any => true,

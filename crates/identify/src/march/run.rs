@@ -55,6 +55,9 @@ pub enum MotionError {
 /// The last Newton step for a stage's velocity, of what the velocity may be wrong by: what it leaves is of its square.
 const NEAR: f64 = 1e-3;
 
+/// A stage begins at the velocity at which it would go on if that is more than so much of the one before.
+const SLOWED: f64 = 0.5;
+
 /// How slow the plant is where it turns, of the same.
 const TURNED: f64 = 1e-5;
 
@@ -294,8 +297,10 @@ impl<'a> Walker<'a> {
             (self.base.q, self.base.v) = (Dual::from(base[0]), Dual::from(base[1]));
             let u = ends[0] + (ends[1] - ends[0]) * ((from + C[s] * h) / dt);
             let stage = Stage { t: t + from + C[s] * h, dt: gh, u: Dual::from(u) };
-            // As fast as it would be if it went on to gain speed as in the stage before.
-            let guess = base[1] + gh * if s == 0 { self.v_dot } else { v_dot[s - 1] };
+            // As fast as it would be if it went on to gain speed as in the stage before. Where that leads near to rest a
+            // bristle in its Stribeck zone could stick as well as slide: there it goes on from where it is.
+            let on = base[1] + gh * if s == 0 { self.v_dot } else { v_dot[s - 1] };
+            let guess = if v == 0.0 || on / v > SLOWED { on } else { v };
             let seek = Seek { guess, close: NEAR * self.tolerance.v, way };
             let (root, way) = velocity(&self.probe, &self.base, &stage, seek, &mut self.z_probe)?;
             v = root;
