@@ -15,6 +15,7 @@ use identify::{
     effects::Context,
     fit::{FitError, starts},
 };
+use nalgebra::{DMatrix, SymmetricEigen};
 
 /// What is left may be so much larger than the floor before it is said that more is missing.
 const MORE: f64 = 1.4;
@@ -37,6 +38,9 @@ const NO_NOISE: f64 = 1e4;
 /// nothing missing three in a row come to 2.7 times at most.
 const LASTING: usize = 3;
 const STRUCK: f64 = 10.0;
+
+/// A scaled curvature that is less than this is the rounding of larger ones.
+const UNSEEN: f64 = 1e-12;
 
 /// A nominal parameter that moves further was wrong: nominal values are a little off, always.
 const WRONG: f64 = 0.08;
@@ -143,16 +147,16 @@ impl Walk<'_> {
         let all = gram.sum(|_| true);
         let n = gram.nominal;
         let size: Vec<f64> = (0..n).map(|i| all[(i, i)].max(1e-300).sqrt()).collect();
-        let scaled = nalgebra::DMatrix::from_fn(n, n, |i, j| all[(i, j)] / (size[i] * size[j]));
-        let inverse = scaled.try_inverse();
+        let scaled = DMatrix::from_fn(n, n, |i, j| all[(i, j)] / (size[i] * size[j]));
+        let inverse = surely(scaled);
         let variance = self.judged(&self.best.blocks).mean().max(1.0);
         let values = (0..n).map(|i| {
             let value = problem.value(i, &self.best.x);
             let own = problem.free[i].value(self.best.x[i]);
-            let error = inverse.as_ref().map_or(f64::NAN, |inverse| {
-                (variance * inverse[(i, i)].abs()).sqrt() / size[i]
-                    * problem.free[i].slope(own).abs()
-            });
+            let slope = problem.free[i].slope(own).abs();
+            let error = inverse
+                .as_ref()
+                .map_or(f64::NAN, |inverse| (variance * inverse[(i, i)]).sqrt() / size[i] * slope);
             let name = problem.free[i].name.clone();
             let unit = self.best.rig.unit(&name);
             Value { name, value, standard_error: error, unit }
@@ -209,6 +213,19 @@ impl Walk<'_> {
     fn judging(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.board.trains.len()).filter(|k| !self.board.trains[*k])
     }
+}
+
+/// The inverse of a symmetric matrix with ones on its diagonal, if it has one. Of a direction that the record does not
+/// see, as of the difference of two springs that always stretch alike, the curvature is rounding, which one inverts to
+/// anything: it counts as [`UNSEEN`], and the others keep what is theirs.
+fn surely(scaled: DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if scaled.is_empty() {
+        return None;
+    }
+    let parts = SymmetricEigen::try_new(scaled, f64::EPSILON, 1000)?;
+    let weights = parts.eigenvalues.map(|curvature| 1.0 / curvature.max(UNSEEN));
+    let axes = parts.eigenvectors;
+    Some(&axes * DMatrix::from_diagonal(&weights) * axes.transpose())
 }
 
 /// Whether [`LASTING`] neighbouring blocks are each [`STRUCK`] times as far off as the middle one.
@@ -269,7 +286,21 @@ fn verdict(
 
 #[cfg(test)]
 mod tests {
-    use super::lasting;
+    use super::{lasting, surely};
+    use nalgebra::DMatrix;
+
+    #[test]
+    fn a_direction_that_is_not_seen_leaves_the_errors_of_the_others_alone() {
+        // Of the first two only the sum is seen, to the last bit.
+        let (a, bit) = (0.25, 1.0 - f64::EPSILON);
+        let inverse = surely(DMatrix::from_row_slice(3, 3, &[1., bit, a, bit, 1., a, a, a, 1.]));
+        let inverse = inverse.expect("it is symmetric");
+        // With s = (x + y)/√2: the block [2, a√2; a√2, 1] has the inverse's last entry 1/(1 - a²).
+        let expected = 1.0 / (1.0 - a * a);
+        assert!((inverse[(2, 2)] / expected - 1.0).abs() < 1e-9, "{inverse}");
+        assert!((inverse[(0, 0)] / 5e11 - 1.0).abs() < 1e-3, "{inverse}");
+        assert!(surely(DMatrix::zeros(0, 0)).is_none());
+    }
 
     #[test]
     fn what_lasts_for_three_blocks_is_no_block_gone_astray() {

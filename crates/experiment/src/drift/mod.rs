@@ -87,8 +87,8 @@ fn searches(committed: &Summary, found: &Summary, moved: &mut Vec<Drift>) {
     compare("shares.csv", (&committed.shares, &found.shares), searched, moved);
 }
 
-/// The candidates that take away nearly as much as the best one of their round, and may belong to its set; where the
-/// others stopped on their way is chance.
+/// The best candidate of each round, and those of its set that take away nearly as much; where the others stopped on
+/// their way is chance.
 fn near(summary: &Summary) -> Vec<record::RankedRow> {
     const ALIKE: f64 = 0.97;
     let all = &summary.ranking;
@@ -96,7 +96,15 @@ fn near(summary: &Summary) -> Vec<record::RankedRow> {
         let same = |r: &&record::RankedRow| (&r.discovery, r.round) == (&row.discovery, row.round);
         all.iter().filter(same).map(|r| r.shrink).fold(0.0, f64::max)
     };
-    let mut near: Vec<_> = all.iter().filter(|r| r.shrink > ALIKE * best(r)).cloned().collect();
+    let named = |row: &record::RankedRow| {
+        let own = summary.effects.iter().filter(|e| e.discovery == row.discovery);
+        own.flat_map(|e| e.set.split(';')).any(|name| name == row.effect)
+    };
+    let kept = |row: &&record::RankedRow| {
+        let best = best(row);
+        row.shrink >= best || (named(row) && row.shrink > ALIKE * best)
+    };
+    let mut near: Vec<_> = all.iter().filter(kept).cloned().collect();
     // Which of them comes first is chance, too.
     near.sort_by(|a, b| {
         (&a.discovery, a.round, &a.effect).cmp(&(&b.discovery, b.round, &b.effect))
