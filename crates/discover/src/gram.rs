@@ -70,9 +70,18 @@ pub(crate) fn has_amount(kind: Kind) -> bool {
 
 /// The values of an effect whose shapes are as probed: its amounts are 0.
 fn values_of(kind: Kind, probe: &[f64]) -> Vec<f64> {
+    valued(kind, probe, |_| 0.0)
+}
+
+/// The values of an effect whose shapes are as probed, `tried` with so much of the natural sizes of its amounts.
+pub(crate) fn tried(kind: Kind, probe: &[f64], tried: f64, context: &Context) -> Vec<f64> {
+    valued(kind, probe, |key| tried * context.size(key.measure))
+}
+
+fn valued(kind: Kind, probe: &[f64], amount: impl Fn(&Key) -> f64) -> Vec<f64> {
     let mut shapes = probe.iter().copied();
     let value = |key: &Key| match key.shape {
-        Shape::Amount => 0.0,
+        Shape::Amount => amount(key),
         _ => shapes.next().unwrap_or(1.0),
     };
     kind.about().keys.iter().map(value).collect()
@@ -100,11 +109,12 @@ fn amounts(kind: Kind) -> usize {
 }
 
 impl Gram {
-    /// Of a fitted model and all that it may lack; what does not begin smoothly is tried at so many amounts at most.
+    /// Of a fitted model and all that it may lack; what does not begin smoothly at its smallest amount,
+    /// if `begun` asks for it.
     pub(crate) fn of(
         board: &Board<'_>,
         fitted: &Fitted,
-        (context, most): (&Context, usize),
+        (context, begun): (&Context, bool),
     ) -> Result<Self, FitError> {
         let lacking = lacking(board, &fitted.rig, context);
         let own = board.problem(&fitted.rig, |_| true)?;
@@ -114,11 +124,14 @@ impl Gram {
             .into_iter()
             .map(|j| vec![j])
             .collect();
-        let (mut all, mut begun): (Vec<(Kind, Vec<f64>)>, Vec<_>) = (Vec::new(), Vec::new());
-        for (kind, probes) in lacking.into_iter().filter(|(kind, _)| has_amount(*kind)) {
-            let to = if kind.tried().is_empty() { &mut all } else { &mut begun };
-            to.extend(probes.into_iter().map(|probe| (kind, probe)));
-        }
+        let (smooth, joints): (Vec<_>, Vec<_>) = lacking
+            .into_iter()
+            .filter(|(kind, _)| has_amount(*kind))
+            .partition(|(kind, _)| kind.tried().is_empty());
+        let each = |(kind, probes): (Kind, Vec<Vec<f64>>)| {
+            probes.into_iter().map(move |probe| (kind, probe))
+        };
+        let all: Vec<(Kind, Vec<f64>)> = smooth.into_iter().flat_map(each).collect();
         let (mut probes, mut place, mut next): (Vec<Probe>, _, _) = (Vec::new(), nominal, 0);
         while next < all.len() {
             let mut rig = Rig { free: Vec::new(), ..fitted.rig.clone() };
@@ -146,11 +159,11 @@ impl Gram {
             place += taken;
         }
         let residuals = residuals(board, &own, &fitted.x, &fitted.pieces);
-        for (kind, probe) in &begun {
-            for tried in kind.tried().iter().take(most) {
-                let (size, moved) = tried_at(board, fitted, (*kind, probe, *tried), context)?;
-                let values = values_of(*kind, probe);
-                probes.push(Probe { kind: *kind, values, columns: vec![place], sizes: vec![size] });
+        for (kind, own) in joints.into_iter().filter(|_| begun) {
+            for (probe, tried) in own.iter().zip(kind.tried()).take(1) {
+                let (size, moved) = tried_at(board, fitted, (kind, probe, *tried), context)?;
+                let values = values_of(kind, probe);
+                probes.push(Probe { kind, values, columns: vec![place], sizes: vec![size] });
                 place += 1;
                 for ((columns, r), moved) in columns.iter_mut().zip(&residuals).zip(moved) {
                     columns.push(DMatrix::from_column_slice(r.len(), 1, (moved - r).as_slice()));

@@ -21,6 +21,14 @@ pub(crate) struct Scored {
     pub(crate) plausible: bool,
 }
 
+impl Scored {
+    /// An effect with these values that no derivative tells anything of.
+    pub(crate) fn unscored(kind: Kind, values: Vec<f64>) -> Self {
+        let (nominal, left) = (Vec::new(), Vec::new());
+        Self { kind, values, nominal, gain: 0.0, left, plausible: true }
+    }
+}
+
 /// How small an amount shows, and what hides it.
 #[derive(Debug, Clone)]
 pub(crate) struct Visible {

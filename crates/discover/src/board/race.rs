@@ -9,39 +9,39 @@ use identify::{
 use rayon::prelude::*;
 
 impl Board<'_> {
-    /// Fits models on the training blocks, each from its own values; after a `heat` of so many simulations only the best
-    /// are `kept`. Those, the best first by the logarithms of their windows' sums of squares. What cannot be simulated
-    /// is none of them.
+    /// Fits models on the training blocks, each from its own values; after each of the `heats`, of so many simulations in
+    /// all, only so many of the best are kept. Those, the best first by the logarithms of their windows' sums of squares.
+    /// What cannot be simulated is none of them.
     ///
     /// Where a search ends is seen long before it ends: successive halving (Jamieson and Talwalkar, Proceedings of
     /// Machine Learning Research 51, 2016).
     pub(crate) fn raced(
         &self,
         rigs: &[(Kind, Rig)],
-        (heat, kept): (usize, usize),
+        heats: &[(usize, usize)],
         patience: &Patience,
     ) -> Vec<(Kind, Rig)> {
         let problems: Vec<(Kind, Problem<'_>)> = rigs
             .iter()
             .filter_map(|(kind, rig)| Some((*kind, self.problem(rig, |k| self.trains[k]).ok()?)))
             .collect();
-        let heat = Patience { simulations: heat, ..*patience };
         let mut all: Vec<(Kind, &Problem<'_>, Descent<'_, '_>)> = problems
             .par_iter()
             .map(|(kind, problem)| {
-                let mut descent = Descent::of(problem, &starts::nominal(problem), None);
-                descent.go(&heat);
-                (*kind, problem, descent)
+                (*kind, problem, Descent::of(problem, &starts::nominal(problem), None))
             })
             .collect();
         let far = |descent: &Descent<'_, '_>| -> f64 {
             let pieces = descent.pieces().iter();
             pieces.map(|piece| piece.misfit().max(f64::MIN_POSITIVE).ln()).sum()
         };
-        all.sort_by(|a, b| far(&a.2).total_cmp(&far(&b.2)));
-        all.truncate(kept);
-        all.par_iter_mut().for_each(|(.., descent)| descent.go(patience));
-        all.sort_by(|a, b| far(&a.2).total_cmp(&far(&b.2)));
+        for (simulations, kept) in heats.iter().copied().chain([(patience.simulations, usize::MAX)])
+        {
+            let heat = Patience { simulations, ..*patience };
+            all.par_iter_mut().for_each(|(.., descent)| descent.go(&heat));
+            all.sort_by(|a, b| far(&a.2).total_cmp(&far(&b.2)));
+            all.truncate(kept);
+        }
         let fitted = all.into_iter().map(|(kind, problem, descent)| {
             (kind, with_values(problem.rig, problem, &descent.found().x))
         });
@@ -84,7 +84,7 @@ mod tests {
             (kind, rig)
         });
         let patience = Patience { misfit: 0.1, share: 0.0, simulations: 20 };
-        let left = board.raced(&all, (6, 1), &patience);
+        let left = board.raced(&all, &[(6, 1)], &patience);
         assert_eq!(left.len(), 1);
         assert_eq!(left[0].0, Kind::CurrentBias);
         let found = left[0].1.value("current_bias.bias").unwrap();

@@ -1,6 +1,6 @@
 //! The effects that are worth a refit, and what a refit makes of them.
 
-use super::{GROSS, NOTHING, Walk, tries};
+use super::{GROSS, NOTHING, Walk};
 use crate::{
     board::Fitted,
     decide::{Judged, shrink},
@@ -32,6 +32,12 @@ const AFRESH: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 16 }
 const HEAT: usize = 6;
 const KEPT: usize = 8;
 
+/// The same for what does not begin smoothly.
+const BEGUN: [(usize, usize); 3] = [(2, 10), (4, 4), (HEAT, 2)];
+
+/// It is worth a look where the model leaves so much more than the floor.
+const ABOVE: f64 = 1.1;
+
 /// Near the floor so few are worth a look.
 const FEW: usize = 2;
 
@@ -60,7 +66,7 @@ impl Walk<'_> {
         for (place, point) in points.iter().enumerate() {
             let gram = match start {
                 Some(gram) if place + 1 == points.len() => gram.clone(),
-                _ => Gram::of(&self.board, point, (context, tries(&now)))?,
+                _ => Gram::of(&self.board, point, (context, false))?,
             };
             let there = self.judged(&point.blocks);
             let mut short = self.short_list(&gram, &there, context, options);
@@ -75,18 +81,41 @@ impl Walk<'_> {
                 all.extend(short.par_iter().filter_map(near).collect::<Vec<Candidate>>());
             }
         }
+        if now.level() > ABOVE {
+            all.extend(self.begun(points[0], context));
+        }
         Ok(all)
+    }
+
+    /// What does not begin smoothly, and so has no score, refitted from a `point` by way of short windows, from each
+    /// amount and shape at which it is tried.
+    fn begun(&self, point: &Fitted, context: &Context) -> Vec<Candidate> {
+        let mut near = Vec::new();
+        for (kind, probes) in gram::lacking(&self.board, &self.best.rig, context) {
+            let one = |(probe, tried): (&Vec<f64>, &f64)| {
+                let values = gram::tried(kind, probe, *tried, context);
+                (kind, model::with(point, &Scored::unscored(kind, values)))
+            };
+            let each = probes.iter().flat_map(|p| kind.tried().iter().map(move |t| (p, t)));
+            let all: Vec<(Kind, Rig)> = each.map(one).collect();
+            near.extend(self.short.raced(&all, &BEGUN, &AFRESH));
+        }
+        self.longer(near)
     }
 
     /// The effects refitted from a `point` far from the truth by way of short windows; those go on that are near there.
     fn afresh(&self, point: &Fitted, list: &[Scored]) -> Vec<Candidate> {
         let all: Vec<(Kind, Rig)> =
             list.iter().map(|scored| (scored.kind, model::with(point, scored))).collect();
-        let near = self.short.raced(&all, (HEAT, KEPT), &AFRESH);
-        let longer = |(kind, rig): (Kind, Rig)| {
+        self.longer(self.short.raced(&all, &[(HEAT, KEPT)], &AFRESH))
+    }
+
+    /// What came near on short windows, refitted on the long ones.
+    fn longer(&self, near: Vec<(Kind, Rig)>) -> Vec<Candidate> {
+        let one = |(kind, rig): (Kind, Rig)| {
             Some(Candidate { kind, fitted: self.board.fit(&rig, None, &AFRESH).ok()? })
         };
-        near.into_par_iter().filter_map(longer).collect()
+        near.into_par_iter().filter_map(one).collect()
     }
 
     /// The plausible candidates, the best first, each effect once; all of them go to the ranking.
@@ -160,10 +189,10 @@ impl Walk<'_> {
             let near = now.level() < NOTHING && now.gained(&there) > GAIN;
             s.gain > GAIN && (near || there.level() < now.level() - FALLS)
         };
-        // What does not begin smoothly has its score only where it was tried, and is always worth a look.
-        let (joints, scores): (Vec<Scored>, Vec<Scored>) =
-            scores.into_iter().partition(|s| !s.kind.tried().is_empty());
-        let mut all: Vec<Scored> = scores.into_iter().filter(|s| s.plausible && gains(s)).collect();
+        let mut all: Vec<Scored> = scores
+            .into_iter()
+            .filter(|s| s.kind.tried().is_empty() && s.plausible && gains(s))
+            .collect();
         let rest = all.split_off(options.short_list.min(all.len()));
         let mut list = all;
         // Far from the truth a gain along a straight line says little; what the judging blocks say of it, more.
@@ -172,21 +201,11 @@ impl Walk<'_> {
         rest.sort_by(|a, b| a.0.total_cmp(&b.0));
         let more = if far { BESIDE } else { 0 };
         list.extend(rest.into_iter().take(more).map(|(_, s)| s));
-        if now.level() >= NOTHING {
-            list.extend(joints);
-        }
         for (kind, probes) in gram::lacking(&self.board, &self.best.rig, context) {
             if gram::has_amount(kind) || now.level() < NOTHING {
                 continue;
             }
-            list.extend(probes.into_iter().map(|values| Scored {
-                kind,
-                values,
-                nominal: Vec::new(),
-                gain: 0.0,
-                left: Vec::new(),
-                plausible: true,
-            }));
+            list.extend(probes.into_iter().map(|values| Scored::unscored(kind, values)));
         }
         list
     }

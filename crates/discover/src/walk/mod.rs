@@ -120,9 +120,8 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
     let short = Board::of(rig, data, SHORT, loose.clone())?;
     let mut walk = Walk { board, short, counts, best: refit.clone(), origin, ranking: Vec::new() };
     let context = model::context(&walk.board, &refit);
-    // Once at least, to say how little of it would show.
-    let tries = tries(&walk.judged(&refit.blocks)).max(1);
-    let start = Gram::of(&walk.board, &refit, (&context, tries))?;
+    // To say how little of each would show.
+    let start = Gram::of(&walk.board, &refit, (&context, true))?;
     let mut effects: Vec<Found> = Vec::new();
     for round in 0..options.most {
         let first = Some(&start).filter(|_| round == 0);
@@ -300,11 +299,6 @@ impl Walk<'_> {
         }
         Ok(())
     }
-}
-
-/// At how many amounts at most an effect is tried that does not begin smoothly.
-fn tries(now: &Judged) -> usize {
-    if now.level() < NOTHING { 0 } else { usize::MAX }
 }
 
 /// The best of the candidates, if it is surely there, with those that cannot be told from it; of these the simplest

@@ -22,7 +22,10 @@ impl Law for Backlash {
             Key::fitted("rubs", Measure::Force),
             Key::fitted("teeth", Measure::Time),
         ],
-        probes: |c| vec![vec![0.15, 0.02 * c.force, TEETH * c.sample_time]],
+        probes: |c| {
+            let own = |(ratio, rubs): (f64, f64)| vec![ratio, rubs * c.force, TEETH * c.sample_time];
+            [(0.05, 0.01), (0.05, 0.1), (0.25, 0.01), (0.25, 0.1)].map(own).to_vec()
+        },
         applies: is_joined,
         confused: &["compliance", "presliding"],
         separated_by: "slow reversals, with the motor's own angle recorded",
@@ -30,7 +33,7 @@ impl Law for Backlash {
     };
     const STATES: usize = 2;
     const JOINS: bool = true;
-    const TRIED: &[f64] = &[3e-5, 3e-4, 3e-3, 3e-2];
+    const TRIED: &[f64] = &[3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2];
 
     fn joint<D: Real>(p: &[D], at: &At<D>) -> Option<Joint<D>> {
         // Teeth that do not ring.

@@ -17,7 +17,7 @@ impl Law for Compliance {
             Key::fitted("ratio", Measure::One),
             Key::fitted("damping", Measure::One),
         ],
-        probes: |_| vec![vec![0.15, 0.3]],
+        probes: |_| vec![vec![0.05, 0.3], vec![0.25, 0.3]],
         applies: is_joined,
         confused: &["tach_gain", "backlash", "velocity_lag"],
         separated_by: "a drive that is held against a stop",
