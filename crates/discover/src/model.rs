@@ -116,6 +116,20 @@ pub(crate) fn reasonable(rig: &Rig, other: &Rig) -> bool {
     nominal(rig).all(|name| near(name, rig, other))
 }
 
+/// Whether friction that grows by the share s sin kq + c cos kq is nowhere between two `ends` of the motion more than
+/// (1 + `most`)/(1 − `most`) times what it is elsewhere there. Of a long wave only a part is seen, and how large it is
+/// as a whole says nothing; what it comes to everywhere is the nominal friction's.
+fn varies([s, c, k]: [f64; 3], [low, high]: [f64; 2], most: f64) -> bool {
+    let at = |q: f64| s * (k * q).sin() + c * (k * q).cos();
+    let (amplitude, phase) = (s.hypot(c), s.atan2(c));
+    // In halves of a wave from its crest: crests are at even numbers, troughs at odd ones.
+    let [from, to] = [low, high].map(|q| (k * q - phase) / PI);
+    let has = |odd: f64| 2.0 * ((from - odd) / 2.0).ceil() + odd <= to;
+    let most_there = if has(0.0) { amplitude } else { at(low).max(at(high)) };
+    let least_there = if has(1.0) { -amplitude } else { at(low).min(at(high)) };
+    least_there > -1.0 && (1.0 + most_there) * (1.0 - most) <= (1.0 + most) * (1.0 + least_there)
+}
+
 /// Whether every value has a plausible sign and size, and no nominal parameter went to one that is absurd beside those
 /// of all `others`.
 pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig]) -> bool {
@@ -123,19 +137,24 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
     // No effect is stronger than what drives the plant; its friction may be weak.
     let driven = Context { force: context.drive, ..*context };
     let value = |key: &Key| rig.value(&format!("{}.{}", about.name, key.name)).unwrap_or(0.0);
-    // Of less than half a wave only the slope and the bend are seen, and no amplitude is.
-    let wave = about.keys.iter().find(|key| key.measure == Measure::Wavenumber);
-    let seen = wave.map_or(1.0, |key| (value(key) * context.span / PI).clamp(f64::EPSILON, 1.0));
+    let wave: Vec<f64> = about.keys.iter().map(value).collect();
+    let ends = [context.low, context.low + context.span];
     let own = about.keys.iter().all(|key| {
         let value = value(key);
-        let seen = if key.measure == Measure::Amplitude { seen } else { 1.0 };
-        let size = context.size(key.measure).max(driven.size(key.measure)) / seen;
+        let size = context.size(key.measure).max(driven.size(key.measure));
         let sign = match key.sign {
             Sign::Any => true,
             Sign::Positive => value >= 0.0,
             Sign::Negative => value <= 0.0,
         };
-        sign && value.is_finite() && (key.shape != Shape::Amount || value.abs() <= key.most * size)
+        let little = match (key.shape, key.measure, wave.as_slice()) {
+            (_, Measure::Amplitude, [sine, cosine, wavenumber]) => {
+                varies([*sine, *cosine, *wavenumber], ends, key.most)
+            }
+            (Shape::Amount, ..) => value.abs() <= key.most * size,
+            _ => true,
+        };
+        sign && value.is_finite() && little
     });
     own && nominal(rig).all(|name| others.iter().any(|other| near(name, rig, other)))
 }
@@ -169,6 +188,7 @@ pub(crate) fn context(board: &Board<'_>, fitted: &Fitted) -> Context {
         drive,
         pull: pull.max(1e-9),
         speed: speed.max(1e-12),
+        low: if low.is_finite() { low } else { 0.0 },
         span: (high - low).max(1e-12),
         memory: model.contact.memory(),
         duration: data.time[data.time.len() - 1] - data.time[0],
@@ -189,16 +209,17 @@ mod tests {
     const RIG: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n\
         [friction]\nname = \"coulomb\"\nf_c = 1.0\n\
         [channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n\
-        [[effect]]\nname = \"position_friction\"\nsine = 3.0\ncosine = 0.0\nwavenumber = ";
+        [[effect]]\nname = \"position_friction\"\n";
 
-    #[test]
-    fn an_amplitude_is_judged_by_what_is_seen_of_its_wave() {
+    /// Whether friction that grows by s sin kq + c cos kq is plausible on a record between -0.25 and 0.25 m.
+    fn fits([s, c, k]: [f64; 3]) -> bool {
         let context = Context {
             input: 1.0,
             force: 1.0,
             drive: 1.0,
             pull: 1.0,
             speed: 1.0,
+            low: -0.25,
             span: 0.5,
             memory: 1e-3,
             duration: 60.0,
@@ -206,12 +227,24 @@ mod tests {
             mass: 2.0,
             turns: false,
         };
-        let fits = |wavenumber: f64| {
-            let rig = Rig::parse(&format!("{RIG}{wavenumber}\n")).unwrap();
-            plausible(&rig, Kind::PositionFriction, &context, &[&rig])
-        };
-        // Over a span of 0.5 m friction changes by 3 · 0.5 · 0.5 = 0.75 of itself along a slope; a wave of three times
-        // friction would push.
-        assert!(fits(0.5) && !fits(50.0));
+        let rig = format!("{RIG}sine = {s:?}\ncosine = {c:?}\nwavenumber = {k:?}\n");
+        let rig = Rig::parse(&rig).unwrap();
+        plausible(&rig, Kind::PositionFriction, &context, &[&rig])
+    }
+
+    #[test]
+    fn a_wave_is_judged_by_its_extremes_where_the_record_goes() {
+        // Along a slope friction changes by 3 · 0.125 = 0.37 of itself to either side; a wave of three times friction
+        // would push.
+        assert!(fits([3.0, 0.0, 0.5]) && !fits([3.0, 0.0, 50.0]));
+        // A long wave's crest is what friction is everywhere, and its trough would push.
+        assert!(fits([0.0, 3.0, 0.5]) && !fits([0.0, -3.0, 0.5]));
+        // Between 1 - 0.9 and 1 + 0.9, or 1 - 0.905 and 1 + 0.905: a crest and a trough at 1 rad to either side.
+        let k = std::f64::consts::PI;
+        assert!(fits([0.89, 0.0, 3.0 * k]) && !fits([0.905, 0.0, 3.0 * k]));
+        // A quarter of a wave with its crest in the middle goes from 1 + 3 cos(π/4) to 1 + 3.
+        assert!(fits([0.0, 3.0, k]));
+        // With its trough there, the friction is 1 - 0.98 in the middle and 1 - 0.98 cos(π/2) at the ends: 50 times.
+        assert!(!fits([0.0, -0.98, 2.0 * k]) && fits([0.0, -0.9, 2.0 * k]));
     }
 }

@@ -128,3 +128,39 @@ fn the_rig_with_lugre_moves_as_the_method_that_locates_its_events_says() {
     assert!(coarse < 2e-3, "q is {coarse:.1e} of its largest value off at 1e-5");
     assert!(fine < 2e-5, "q is {fine:.1e} of its largest value off at 1e-8");
 }
+
+/// A mass on a spring with effects of every kind that acts at rest: a force, a share by place and by side, a level
+/// that rises.
+const HELD: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n\
+    [friction]\nFRICTION\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n\
+    [[effect]]\nname = \"cubic_spring\"\nk_3 = 30.0\n\
+    [[effect]]\nname = \"coulomb_asymmetry\"\nratio = 0.3\n\
+    [[effect]]\nname = \"position_friction\"\nsine = 0.3\ncosine = 0.1\nwavenumber = 4.0\n\
+    [[effect]]\nname = \"maxwell_slip\"\nk = 20.0\ndelta = 0.01\n\
+    [[effect]]\nname = \"dwell_stiction\"\ndrop = 0.2\ntau = 1e9\n";
+
+#[test]
+fn a_contact_that_holds_the_drive_with_effects_rests() {
+    let frictions = [
+        "name = \"dahl\"\nf_c = 1.0\nsigma = 1e4\ngamma = 1.0",
+        "name = \"lugre\"\nf_c = 1.0\nf_s = 1.2\nv_s = 0.01\nsigma_0 = 1e4\nsigma_1 = 100.0",
+        "name = \"maxwell-slip\"\nk = [1e4, 2e4]\ndelta = [4e-5, 3e-5]",
+    ];
+    let time = times(0.01, 100);
+    for friction in frictions {
+        let rig = Rig::parse(&HELD.replace("FRICTION", friction)).expect("a rig");
+        let model = binding::model::<f64>(&rig, &|_| None);
+        for (q, u) in [(0.1, 0.6), (0.1, -0.2), (-0.15, 0.2)] {
+            // As an element of its own left it, half way through its deadband.
+            let others = vec![0.5; model.states() - model.contact.states()];
+            let z = model.holding((0.0, u), [q, 0.0], &others);
+            let start = Start { q, v: 0.0, z: [z, others].concat() };
+            let tolerance = Tolerance { q: 1e-12, v: 1e-12, z: 1e-9, steps: 1_000_000 };
+            let drive = Drive::Recorded { values: &vec![u; 101], hold: Hold::Linear };
+            let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
+            // A force of 0.01 N that is not held stretches the softest of the bristles by 0.3 to 1 μm.
+            let moved = motion.q.iter().map(|x| (x - q).abs()).fold(0.0, f64::max);
+            assert!(moved < 3e-9, "{friction}: from {q} m it moved by {moved:.1e} m");
+        }
+    }
+}

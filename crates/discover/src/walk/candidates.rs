@@ -35,8 +35,9 @@ const KEPT: usize = 8;
 /// The same for what does not begin smoothly.
 const BEGUN: [(usize, usize); 3] = [(2, 10), (4, 4), (HEAT, 2)];
 
-/// It is worth a look where the model leaves so much more than the floor.
-const ABOVE: f64 = 1.1;
+/// If it leaves more than a right model does, it is begun once more from so many times the amount it came to.
+const DOWN: f64 = 1.02;
+const AROUND: [f64; 4] = [0.8, 0.9, 1.1, 1.25];
 
 /// Near the floor so few are worth a look.
 const FEW: usize = 2;
@@ -49,6 +50,15 @@ const ENDS: f64 = 1.5;
 const HOPELESS: f64 = 10.0;
 
 impl Walk<'_> {
+    /// Where effects are looked for from: where the model is and, before it, where it was before its refit if that went
+    /// far and may have gone astray.
+    pub(super) fn points(&self, round: usize) -> Vec<&Fitted> {
+        let level = self.judged(&self.best.blocks).level();
+        let lost =
+            level > GROSS || (level > NOTHING && model::dragged(&self.best.rig, &self.origin.rig));
+        if round == 0 && lost { vec![&self.origin, &self.best] } else { vec![&self.best] }
+    }
+
     /// The effects worth a refit, each refitted as far as a glance goes: from where the model is and, where that is
     /// far off or was dragged far, from where it was before its own refit as well.
     pub(super) fn candidates(
@@ -58,10 +68,8 @@ impl Walk<'_> {
         (round, start): (usize, Option<&Gram>),
     ) -> Result<Vec<Candidate>, FitError> {
         let now = self.judged(&self.best.blocks);
-        let lost = now.level() > GROSS
-            || (now.level() > NOTHING && model::dragged(&self.best.rig, &self.origin.rig));
-        let far = round == 0 && lost;
-        let points = if far { vec![&self.origin, &self.best] } else { vec![&self.best] };
+        let points = self.points(round);
+        let far = points.len() > 1;
         let mut all: Vec<Candidate> = Vec::new();
         for (place, point) in points.iter().enumerate() {
             let gram = match start {
@@ -81,15 +89,12 @@ impl Walk<'_> {
                 all.extend(short.par_iter().filter_map(near).collect::<Vec<Candidate>>());
             }
         }
-        if now.level() > ABOVE {
-            all.extend(self.begun(points[0], context));
-        }
         Ok(all)
     }
 
     /// What does not begin smoothly, and so has no score, refitted from a `point` by way of short windows, from each
     /// amount and shape at which it is tried.
-    fn begun(&self, point: &Fitted, context: &Context) -> Vec<Candidate> {
+    pub(super) fn begun(&self, point: &Fitted, context: &Context) -> Vec<Candidate> {
         let mut near = Vec::new();
         for (kind, probes) in gram::lacking(&self.board, &self.best.rig, context) {
             let one = |(probe, tried): (&Vec<f64>, &f64)| {
@@ -101,6 +106,25 @@ impl Walk<'_> {
             near.extend(self.short.raced(&all, &BEGUN, &AFRESH));
         }
         self.longer(near)
+    }
+
+    /// What does not begin smoothly once more, if it is the nearest of all and not down at the floor, from a little more
+    /// and a little less of it: wherever the load meets its tooth between other samples there is a minimum of its own.
+    pub(super) fn beside(&self, all: &[Candidate]) -> Vec<Candidate> {
+        let Some((best, level)) = self.nearest(all) else { return Vec::new() };
+        if best.kind.tried().is_empty() || level < DOWN {
+            return Vec::new();
+        }
+        let about = best.kind.about();
+        let name = format!("{}.{}", about.name, about.keys[0].name);
+        let with = |share: &f64| {
+            let mut rig = best.fitted.rig.clone();
+            let value = rig.value(&name).unwrap_or(0.0);
+            identify::fit::binding::set(&mut rig, &name, share * value);
+            (best.kind, rig)
+        };
+        let all: Vec<(Kind, Rig)> = AROUND.iter().map(with).collect();
+        self.longer(self.short.raced(&all, &[(HEAT, 2)], &AFRESH))
     }
 
     /// The effects refitted from a `point` far from the truth by way of short windows; those go on that are near there.

@@ -3,6 +3,7 @@
 mod answer;
 mod candidates;
 mod places;
+mod polish;
 
 use crate::{
     board::{self, Board, FINE, Fitted, ROUGH},
@@ -31,13 +32,6 @@ const AS_BEFORE: f64 = 0.8;
 /// Enough to come near.
 const FIRST: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 20 };
 
-/// Enough for a model that is near already.
-const POLISH: Patience = Patience { misfit: 0.5, share: 2e-5, simulations: 12 };
-
-/// So often at most, as long as the misfit falls by so much; a standard error makes 1.
-const POLISHED: usize = 6;
-const GAINED: f64 = 0.2;
-
 /// An effect is taken if it is better on the judging blocks by so many standard errors.
 const SURE: f64 = 3.0;
 
@@ -51,11 +45,6 @@ const ALIKE: f64 = 0.03;
 
 /// A rival takes away at least so much of what the best one does.
 const CLOSE: f64 = 0.8;
-
-/// A model without an effect is as good if it leaves no more than so many times as much, and may become so if it
-/// leaves no more than this.
-const AS_GOOD: f64 = 1.1;
-const CLOSE_TO: f64 = 1.4;
 
 /// What takes away so much of the excess need not do so in every block alike.
 const MOST: f64 = 0.5;
@@ -71,6 +60,9 @@ const WORTH: f64 = 0.02;
 
 /// Mean squared residual from which on a refit of the nominal model is not trusted to be near the truth.
 const GROSS: f64 = 20.0;
+
+/// It is worth a look where the model leaves so much more than the floor.
+const ABOVE: f64 = 1.1;
 
 /// Mean squared residual, in units of the floor, up to which nothing may be missing.
 const NOTHING: f64 = 1.4;
@@ -128,6 +120,10 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         let Some(found) = walk.step(&context, options, (round, first))? else { break };
         // A refit of what was taken is not the next effect's to claim.
         walk.best = settled(&mut walk.board, walk.best, options.seed)?;
+        // What is left near the floor by a search that stopped early is not the next effect's either.
+        if walk.judged(&walk.best.blocks).level() < polish::CLOSE_TO {
+            walk.polished()?;
+        }
         walk.origin = walk.best.clone();
         walk.reclaim(&mut strayed)?;
         effects.push(found);
@@ -210,16 +206,33 @@ impl Walk<'_> {
             self.board.refine(&self.best, ROUGH)?;
         }
         let candidates = self.candidates(context, options, (round, start))?;
-        let nearest = |a: &&Candidate, b: &&Candidate| {
-            let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
-            level(a).total_cmp(&level(b))
-        };
-        let Some(best) = candidates.iter().min_by(nearest).cloned() else { return Ok(None) };
-        self.board.refine(&best.fitted, FINE)?;
-        let rated = self.rated(self.followed(candidates), context, (round, &now));
+        let mut all = self.finely(candidates)?;
+        // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.
+        let down = self.nearest(&all).is_some_and(|(_, level)| level < ABOVE);
+        if now.level() > ABOVE && !down {
+            let joints = self.begun(self.points(round)[0], context);
+            all.extend(self.finely(joints)?);
+            let beside = self.beside(&all);
+            all.extend(self.finely(beside)?);
+        }
+        let rated = self.rated(all, context, (round, &now));
         let Some((best, found)) = found(&now, &rated) else { return Ok(None) };
         self.best = best.fitted.clone();
         Ok(Some(found))
+    }
+
+    /// The nearest of the candidates, and what it leaves.
+    fn nearest<'c>(&self, candidates: &'c [Candidate]) -> Option<(&'c Candidate, f64)> {
+        let level = |c: &'c Candidate| (c, self.judged(&c.fitted.blocks).level());
+        candidates.iter().map(level).min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The candidates followed to their ends, with steps as short as the nearest asks for.
+    fn finely(&mut self, candidates: Vec<Candidate>) -> Result<Vec<Candidate>, FitError> {
+        if let Some((best, _)) = self.nearest(&candidates) {
+            self.board.refine(&best.fitted, FINE)?;
+        }
+        Ok(self.followed(candidates))
     }
 
     /// What had strayed because an effect was missing is a little loose again where it no longer strays.
@@ -239,63 +252,6 @@ impl Walk<'_> {
             strayed.clear();
         } else {
             self.board.loose.truncate(held);
-        }
-        Ok(())
-    }
-
-    /// The last model and the refitted nominal one with steps that no longer show.
-    fn polish(&mut self, refit: &Fitted, seed: u64) -> Result<Fitted, FitError> {
-        self.best = self.board.refined(&self.best, FINE)?;
-        self.board.refloor(&self.best, seed)?;
-        self.best = self.board.again(&self.best)?;
-        let refit = &self.board.again(refit)?;
-        for _ in 0..POLISHED {
-            let from = (self.best.x.as_slice(), self.best.pieces.as_slice());
-            let next = self.board.fit(&self.best.rig, Some(from), &POLISH)?;
-            let gained = self.board.trained(&self.best) - self.board.trained(&next);
-            if gained > 0.0 {
-                self.best = next;
-            }
-            // The logarithms of the blocks fall by their shares.
-            if gained * self.counts.iter().sum::<f64>() < GAINED * self.counts.len() as f64 {
-                break;
-            }
-        }
-        // Without effects the two are one model: the better minimum is its.
-        if self.best.rig.effects.len() == refit.rig.effects.len() {
-            if self.board.trained(refit) < self.board.trained(&self.best) {
-                self.best = refit.clone();
-            }
-            return Ok(self.best.clone());
-        }
-        Ok(refit.clone())
-    }
-
-    /// Takes away again every effect without which a refit is as good: it had only shown the way.
-    fn drop_each(&mut self, effects: &mut Vec<Found>) -> Result<(), FitError> {
-        for place in (0..effects.len()).rev() {
-            let name = effects[place].name;
-            let mut rig = self.best.rig.clone();
-            rig.effects.retain(|effect| effect.name != name);
-            rig.free.retain(|free| !free.starts_with(&format!("{name}.")));
-            let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
-            let mut without = self.board.fit(&rig, Some((&x, &self.best.pieces)), &REFIT)?;
-            let now = self.judged(&self.best.blocks);
-            let needless = |without: &Fitted| {
-                let there = self.judged(&without.blocks);
-                let near = there.against(&now) < SURE && there.level() < AS_GOOD * now.level();
-                near && self.board.strayed(without).is_empty()
-            };
-            // What comes near at once may come all the way.
-            if !needless(&without) && self.judged(&without.blocks).level() < CLOSE_TO * now.level()
-            {
-                let from = (without.x.as_slice(), without.pieces.as_slice());
-                without = self.board.fit(&without.rig, Some(from), &REFIT)?;
-            }
-            if needless(&without) {
-                self.best = without;
-                effects.remove(place);
-            }
         }
         Ok(())
     }

@@ -146,6 +146,8 @@ pub struct Context {
     pub pull: f64,
     /// Largest speed [m/s].
     pub speed: f64,
+    /// The smallest displacement [m].
+    pub low: f64,
     /// How far the displacement goes, from the smallest to the largest [m].
     pub span: f64,
     /// The distance over which the contact forgets where it was [m].

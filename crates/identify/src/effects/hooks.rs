@@ -71,6 +71,15 @@ impl<D: Real> Act<D> {
         Self { force, ..Self::none() }
     }
 
+    /// Adds what another effect does.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.force += other.force;
+        self.more += other.more;
+        self.skew += other.skew;
+        self.rise += other.rise;
+        self.dry += other.dry;
+    }
+
     /// By how much the level is higher [N].
     pub fn rise(rise: D) -> Self {
         Self { rise, ..Self::none() }

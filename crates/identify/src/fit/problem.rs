@@ -143,6 +143,8 @@ impl Problem<'_> {
     /// The state of the contact at a window's start follows from how it came there.
     fn state<D: Real>(&self, model: &Model<D>, window: &Window, start: [D; START]) -> Start<D> {
         let [q, v, shift, off, faster] = start;
+        let way = if window.run_up == 0.0 { 0.0 } else { window.run_up.signum() };
+        let others = model.effects_from(way, &window.path);
         // By the nominal memory: the answer must not jump where a parameter passes a limit.
         let z = if let Some(z) = model.contact.slipped(&window.path) {
             z
@@ -150,11 +152,10 @@ impl Problem<'_> {
             model.contact.sliding(window.run_up.signum() * v.re().abs())
         } else {
             let u = D::from(self.data.input[window.first]);
-            model.contact.holding(model.drive(u, q, v))
+            model.holding((self.data.time[window.first], u), [q, v], &others)
         };
         let mut z = model.contact.shifted(z, shift);
-        let way = if window.run_up == 0.0 { 0.0 } else { window.run_up.signum() };
-        z.extend(model.effects_from(way, &window.path));
+        z.extend(others);
         if !self.rig.two_masses() {
             return Start { q, v, z };
         }

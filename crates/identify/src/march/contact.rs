@@ -167,6 +167,16 @@ impl<D: Real> Contact<D> {
         }
     }
 
+    /// The same with bristles that slip at a level that is higher by `rise` [N]; the others do not know of it.
+    pub(super) fn raised(&self, rise: D) -> Self {
+        let mut raised = self.clone();
+        if let Self::LuGre { f_c, f_s, .. } = &mut raised {
+            *f_c += rise;
+            *f_s += rise;
+        }
+        raised
+    }
+
     /// The states of elements that slip, after the displacement went from turn to turn of `path` [m]; none for other
     /// contacts, and without a path.
     pub fn slipped(&self, path: &[f64]) -> Option<Vec<D>> {

@@ -157,14 +157,37 @@ impl<D: Real> Model<D> {
                 z.copy_from_slice(base);
                 e.kind.act(&e.p, at, base, z)
             };
-            all.force += act.force;
-            all.more += act.more;
-            all.skew += act.skew;
-            all.rise += act.rise;
-            all.dry += act.dry;
+            all.add(&act);
             first = end;
         }
         all
+    }
+
+    /// The states of the contact at rest at the time `t` [s] that hold what the effects, in the states `others`, leave
+    /// of the drive at the input `u`. What a joint passes on is not known before the load is, and counts as nothing.
+    pub fn holding(&self, (t, u): (f64, D), [q, v]: [D; 2], others: &[D]) -> Vec<D> {
+        let force = self.drive(u, q, v);
+        // As if there were no effects: of its state they see only what share of its level it holds.
+        let z = self.contact.holding(force);
+        if self.effects.is_empty() {
+            return z;
+        }
+        let at = self.at(&Stage { t, dt: 0.0, u }, self.driving(u), [q, v], &z);
+        let (mut all, mut first, mut after) = (Act::none(), 0, others.to_vec());
+        for e in &self.effects {
+            let end = first + e.kind.states();
+            if !e.kind.joins(&e.p) {
+                all.add(&e.kind.act(&e.p, &at, &others[first..end], &mut after[first..end]));
+            }
+            first = end;
+        }
+        all.risen(|| self.contact.level(), self.contact.bristles());
+        let left = force - all.force;
+        let way = if left.re() == 0.0 { 0.0 } else { left.re().signum() };
+        let share = all.more + all.skew * way + 1.0;
+        // Friction that pushes holds nothing: then as if it were the nominal one.
+        let left = if share.re() > 0.0 { left / share } else { left };
+        self.contact.raised(all.rise).holding(left)
     }
 
     /// Whether friction can hold whatever the velocity does next.
