@@ -155,7 +155,7 @@ impl Signals {
                 .map(|(first, second)| -model.radius * (first - second))
                 .collect()
         });
-        let drive = Drive::Recorded { values: &self.input, hold: data.hold };
+        let drive = Drive::Recorded { values: &self.input, first: 0, hold: data.hold };
         let measured = Measured { time: &data.time, q: &self.q, v: &self.v, pull: &pull };
         observe(model, &drive, &measured, strength)
     }

@@ -69,7 +69,7 @@ fn moved(rig: &Rig, name: &str, to: f64, time: &[f64], rtol: f64) -> Motion {
     let u = drive(time);
     let start = Start { q: 0.05, v: 0.2, z: vec![0.01; model.contact.states()] };
     let tolerance = Tolerance { q: rtol, v: rtol, z: rtol, steps: 50_000_000 };
-    let drive = Drive::Recorded { values: &u, hold: Hold::Linear };
+    let drive = Drive::Recorded { values: &u, first: 0, hold: Hold::Linear };
     march(&model, &drive, time, &start, &tolerance).expect("a value")
 }
 
@@ -81,7 +81,7 @@ fn replayed(rig: &Rig, name: &str, time: &[f64], motion: &Motion) -> Vec<f64> {
     let u = drive(time);
     let start =
         Start { q: 0.05.into(), v: 0.2.into(), z: vec![0.01.into(); model.contact.states()] };
-    let drive = Drive::Recorded { values: &u, hold: Hold::Linear };
+    let drive = Drive::Recorded { values: &u, first: 0, hold: Hold::Linear };
     let mut by = Vec::new();
     replay(&model, (&drive, time), &motion.tape, &start, &mut |_, q, _, _| {
         by.push(q.eps[0]);

@@ -28,7 +28,7 @@ fn record(rig: &Rig, amplitude: f64, seed: u64) -> Data {
     let wave = |t: f64| (1.3 * t).sin() + 0.5 * (4.1 * t).sin();
     let input: Vec<f64> = time.iter().map(|t| amplitude * wave(*t)).collect();
     let model = binding::model::<f64>(rig, &|_| None);
-    let drive = Drive::Recorded { values: &input, hold: Hold::Linear };
+    let drive = Drive::Recorded { values: &input, first: 0, hold: Hold::Linear };
     let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.contact.states()] };
     let fine = Tolerance { q: 1e-9, v: 1e-9, z: 1e-8, steps: 10_000_000 };
     let motion = march(&model, &drive, &time, &start, &fine).expect("a motion");

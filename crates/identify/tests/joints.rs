@@ -29,7 +29,7 @@ fn masses() -> (f64, f64) {
 fn moved(rig: &Rig, (ahead, v): (f64, f64), time: &[f64], push: f64) -> Motion {
     let model = binding::model::<f64>(rig, &|_| None);
     let values = vec![push; time.len()];
-    let drive = Drive::Recorded { values: &values, hold: Hold::Linear };
+    let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
     let start = Start { q: ahead, v, z: vec![0.0; model.states()] };
     let tolerance = Tolerance { q: 1e-10, v: 1e-9, z: 1e-9, steps: 10_000_000 };
     march(&model, &drive, time, &start, &tolerance).expect("a motion")
@@ -99,7 +99,7 @@ fn a_load_in_its_gap_is_stopped_by_its_own_friction() {
     // The motor pushes it for a while and is then pulled back: the load coasts by v²/2 over its deceleration.
     let model = binding::model::<f64>(&rig, &|_| None);
     let values = vec![-1.0; time.len()];
-    let drive = Drive::Recorded { values: &values, hold: Hold::Linear };
+    let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
     let mut z = vec![0.0; model.states()];
     z[1] = speed;
     let start = Start { q: 0.5 * gap - 1e-9, v: speed, z };
@@ -138,7 +138,7 @@ fn the_derivatives_of_a_motion_with_a_joint_are_those_of_its_differences() {
             let model: Model<Dual<2>> =
                 binding::model(&rig, &|own| (own == key).then(|| Dual::variable(value, 0)));
             let drive = vec![2.0; time.len()];
-            let drive = Drive::Recorded { values: &drive, hold: Hold::Linear };
+            let drive = Drive::Recorded { values: &drive, first: 0, hold: Hold::Linear };
             let zero = Dual::<2>::from(0.0);
             let start = Start { q: zero, v: zero, z: vec![zero; model.states()] };
             let mut by = Vec::new();

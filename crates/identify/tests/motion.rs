@@ -21,8 +21,14 @@ fn times(step: f64, count: u32) -> Vec<f64> {
 fn run(model: &Model<f64>, u: &[f64], time: &[f64], [q, v]: [f64; 2], rtol: f64) -> Motion {
     let start = Start { q, v, z: vec![0.0; model.contact.states()] };
     let tolerance = Tolerance { q: rtol, v: rtol, z: rtol, steps: 10_000_000 };
-    march(model, &Drive::Recorded { values: u, hold: Hold::Linear }, time, &start, &tolerance)
-        .expect("a value")
+    march(
+        model,
+        &Drive::Recorded { values: u, first: 0, hold: Hold::Linear },
+        time,
+        &start,
+        &tolerance,
+    )
+    .expect("a value")
 }
 
 #[test]
@@ -156,7 +162,7 @@ fn a_contact_that_holds_the_drive_with_effects_rests() {
             let z = model.holding((0.0, u), [q, 0.0], &others);
             let start = Start { q, v: 0.0, z: [z, others].concat() };
             let tolerance = Tolerance { q: 1e-12, v: 1e-12, z: 1e-9, steps: 1_000_000 };
-            let drive = Drive::Recorded { values: &vec![u; 101], hold: Hold::Linear };
+            let drive = Drive::Recorded { values: &vec![u; 101], first: 0, hold: Hold::Linear };
             let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
             // A force of 0.01 N that is not held stretches the softest of the bristles by 0.3 to 1 μm.
             let moved = motion.q.iter().map(|x| (x - q).abs()).fold(0.0, f64::max);

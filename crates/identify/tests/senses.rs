@@ -18,7 +18,7 @@ fn a_late_velocity_follows_a_line_and_a_corner_as_a_first_order_filter_does() {
     let model = binding::model::<f64>(&rig, &|_| None);
     let time: Vec<f64> = (0..200).map(|i| step * f64::from(i)).collect();
     let values: Vec<f64> = (0..200).map(|i| if i < corner { 1.0 } else { -3.0 }).collect();
-    let drive = Drive::Recorded { values: &values, hold: Hold::ZeroOrder };
+    let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::ZeroOrder };
     let start = Start { q: 0.0, v: 0.2, z: Vec::new() };
     let tolerance = Tolerance { q: 1e-9, v: 1e-9, z: 1e-9, steps: 100_000 };
     let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");

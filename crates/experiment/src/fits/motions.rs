@@ -130,7 +130,7 @@ fn simulated(data: &Data, rig: &Rig, tolerance: f64) -> Result<(Vec<f64>, Vec<f6
     let z = model.contact.holding(model.drive(first_input(data), q, 0.0));
     let motion = march(
         &model,
-        &Drive::Recorded { values: &data.input, hold: data.hold },
+        &Drive::Recorded { values: &data.input, first: 0, hold: data.hold },
         &data.time,
         &Start { q, v: 0.0, z },
         &Tolerance {

@@ -4,6 +4,7 @@
 //! declares its controller. The state at the start of each window is estimated with the parameters. What the
 //! fit minimises is the sum of the squared residuals of every channel, each divided by the channel's noise.
 
+mod begin;
 pub mod binding;
 pub mod blocks;
 mod bootstrap;

@@ -13,7 +13,7 @@ pub use super::{
 };
 use crate::{
     Rig,
-    march::{Drive, Dual, Feedback, Model, Motion, Real, Start, Tape, Tolerance, march, replay},
+    march::{Drive, Dual, Feedback, Model, Motion, Real, Tape, Tolerance, march, replay},
 };
 use nalgebra::{DMatrix, DMatrixViewMut};
 use rayon::prelude::*;
@@ -125,7 +125,7 @@ impl Problem<'_> {
         })
     }
 
-    fn drive(&self, window: &Window) -> Drive<'_> {
+    pub(super) fn drive(&self, window: &Window) -> Drive<'_> {
         let range = window.first..window.end;
         match (&self.rig.controller, self.closed_loop) {
             (Some(c), true) => Drive::Controlled(Feedback {
@@ -136,35 +136,12 @@ impl Problem<'_> {
                 reference: &self.data.reference[range.clone()],
                 added: self.data.added.get(range).unwrap_or(&[]),
             }),
-            _ => Drive::Recorded { values: &self.data.input[range], hold: self.data.hold },
+            _ => Drive::Recorded {
+                values: &self.data.input[..window.end],
+                first: window.first,
+                hold: self.data.hold,
+            },
         }
-    }
-
-    /// The state of the contact at a window's start follows from how it came there.
-    fn state<D: Real>(&self, model: &Model<D>, window: &Window, start: [D; START]) -> Start<D> {
-        let [q, v, shift, off, faster] = start;
-        let way = if window.run_up == 0.0 { 0.0 } else { window.run_up.signum() };
-        let others = model.effects_from(way, &window.path);
-        // By the nominal memory: the answer must not jump where a parameter passes a limit.
-        let z = if let Some(z) = model.contact.slipped(&window.path) {
-            z
-        } else if window.run_up.abs() > FORGOTTEN * self.memory {
-            model.contact.sliding(window.run_up.signum() * v.re().abs())
-        } else {
-            let u = D::from(self.data.input[window.first]);
-            model.holding((self.data.time[window.first], u), [q, v], &others)
-        };
-        let mut z = model.contact.shifted(z, shift);
-        z.extend(others);
-        if !self.rig.two_masses() {
-            return Start { q, v, z };
-        }
-        // The displacement is the load's, a measured velocity the motor's.
-        let [v, load] =
-            if self.data.velocity.is_some() { [v, v - faster] } else { [v + faster, v] };
-        let u = D::from(self.data.input[window.first]);
-        let q = model.motor(u, [q, load], (way, off), &mut z);
-        Start { q, v, z }
     }
 
     /// Simulates one window from `start` at the variables `x`.
@@ -389,6 +366,3 @@ impl Problem<'_> {
         self.windows.par_iter().zip(pieces).map(|(w, piece)| self.slopes(x, w, piece)).collect()
     }
 }
-
-/// So many times its memory a contact must have slid for its state to be that of steady sliding.
-const FORGOTTEN: f64 = 6.0;

@@ -1,6 +1,6 @@
 //! What the input does between the samples, and a controller that makes it.
 
-use super::Real;
+use super::{Real, run::inputs};
 use crate::Hold;
 
 /// The input of a plant over a record.
@@ -8,13 +8,26 @@ use crate::Hold;
 pub enum Drive<'a> {
     /// As recorded, one value a sample.
     Recorded {
-        /// The input at each sample.
+        /// The input at each sample, and before them what a drive that comes late still has of it.
         values: &'a [f64],
+        /// The place of the first sample among them.
+        first: usize,
         /// What it does between them.
         hold: Hold,
     },
     /// Made by the controller from the simulated displacement.
     Controlled(Feedback<'a>),
+}
+
+impl Drive<'_> {
+    /// The input at the first sample where it was recorded, late by the `delay` where there is one; it has the times of
+    /// the samples [s] beside it.
+    pub(crate) fn begins<D: Real>(&self, delay: Option<(D, &[f64])>) -> Option<D> {
+        match self {
+            Self::Recorded { .. } => Some(inputs(self, 0, &[], delay)[0]),
+            Self::Controlled(_) => None,
+        }
+    }
 }
 
 /// A sampled controller, one sample of the record for each of its own:

@@ -213,7 +213,7 @@ impl<D: Real> Model<D> {
     }
 
     /// By how much the input comes late [s], where it does.
-    pub(super) fn delay(&self) -> Option<D> {
+    pub(crate) fn delay(&self) -> Option<D> {
         self.effects.iter().find_map(|e| e.kind.delay(&e.p))
     }
 

@@ -112,7 +112,8 @@ fn seen(model: &Model<f64>, drive: &Drive<'_>, time: &[f64], motion: &mut Motion
 /// How fast the input changes at sample `i`, over a few samples; 0 where the controller makes it.
 pub(super) fn rate(drive: &Drive<'_>, time: &[f64], i: usize) -> f64 {
     const FAR: usize = 2;
-    let Drive::Recorded { values, .. } = drive else { return 0.0 };
+    let Drive::Recorded { values, first, .. } = drive else { return 0.0 };
+    let values = &values[*first..];
     let (before, after) = (i.saturating_sub(FAR), (i + FAR).min(values.len() - 1));
     if after == before {
         return 0.0;
@@ -128,12 +129,13 @@ pub(super) fn inputs<D: super::Real>(
     delay: Option<(D, &[f64])>,
 ) -> [D; 2] {
     match (drive, delay) {
-        (Drive::Recorded { values, hold }, Some((delay, time))) => {
-            late(values, *hold, i, (delay, time))
+        (Drive::Recorded { values, first, hold }, Some(late_by)) => {
+            late((values, *first), *hold, i, late_by)
         }
-        (Drive::Recorded { values, hold: Hold::ZeroOrder }, None) => [D::from(values[i]); 2],
-        (Drive::Recorded { values, hold: Hold::Linear }, None) => {
-            [D::from(values[i]), D::from(values[(i + 1).min(values.len() - 1)])]
+        (Drive::Recorded { values, first, hold }, None) => {
+            let now = first + i;
+            let end = if *hold == Hold::Linear { (now + 1).min(values.len() - 1) } else { now };
+            [D::from(values[now]), D::from(values[end])]
         }
         (Drive::Controlled(feedback), _) => {
             let at = |back: usize| q[q.len() - 1 - back.min(q.len() - 1)];
@@ -142,31 +144,33 @@ pub(super) fn inputs<D: super::Real>(
     }
 }
 
-/// The recorded input of a time `delay` [s] ago, at both ends of the interval that begins with sample `i`. One that
-/// is held steps within the interval: what it does to a mass until the next sample is that of a line.
+/// The recorded input of a time `delay` [s] ago, at both ends of the interval that begins with sample `i`, whose first
+/// is at the place `first` of the values. One that is held steps within the interval: what it does to a mass until the
+/// next sample is that of a line.
 fn late<D: super::Real>(
-    values: &[f64],
+    (values, first): (&[f64], usize),
     hold: Hold,
     i: usize,
     (delay, time): (D, &[f64]),
 ) -> [D; 2] {
-    let next = (i + 1).min(values.len() - 1);
+    let next = (i + 1).min(values.len() - 1 - first);
     let dt = if next > i { time[next] - time[i] } else { 1.0 };
     let share = delay / dt;
     let whole = share.re().floor();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
     let back = whole.clamp(0.0, 1e9) as usize;
     let part = share - whole;
-    let at = |place: usize| D::from(values[place.saturating_sub(back)]);
+    let ago = |place: usize, back: usize| D::from(values[(first + place).saturating_sub(back)]);
+    let at = |place: usize| ago(place, back);
     let between = |place: usize| {
-        let before = D::from(values[place.saturating_sub(back + 1)]);
+        let before = ago(place, back + 1);
         at(place) + (before - at(place)) * part
     };
     match hold {
         Hold::Linear => [between(i), between(next)],
         Hold::ZeroOrder => {
             // The step within the interval, as the line that has its mean and its first moment.
-            let step = at(i) - D::from(values[i.saturating_sub(back + 1)]);
+            let step = at(i) - ago(i, back + 1);
             let half = step * part * (-part + 1.0) * 3.0;
             [between(i) - half, between(i) + half]
         }
