@@ -1,6 +1,6 @@
 //! The effects that are worth a refit, and what a refit makes of them.
 
-use super::{GROSS, NOTHING, Walk};
+use super::{DOWN, GROSS, NOTHING, Walk};
 use crate::{
     board::Fitted,
     decide::{Judged, shrink},
@@ -36,7 +36,6 @@ const KEPT: usize = 8;
 const BEGUN: [(usize, usize); 3] = [(2, 10), (4, 4), (HEAT, 2)];
 
 /// If it leaves more than a right model does, it is begun once more from so many times the amount it came to.
-const DOWN: f64 = 1.02;
 const AROUND: [f64; 4] = [0.8, 0.9, 1.1, 1.25];
 
 /// Near the floor so few are worth a look.
@@ -142,6 +141,12 @@ impl Walk<'_> {
         near.into_par_iter().filter_map(one).collect()
     }
 
+    /// Whether a candidate is plausible.
+    pub(super) fn fits(&self, candidate: &Candidate, context: &Context) -> bool {
+        let others = [&self.best.rig, &self.origin.rig];
+        model::plausible(&candidate.fitted.rig, candidate.kind, context, &others)
+    }
+
     /// The plausible candidates, the best first, each effect once; all of them go to the ranking.
     pub(super) fn rated(
         &mut self,
@@ -153,12 +158,7 @@ impl Walk<'_> {
             .into_iter()
             .map(|c| {
                 let judged = self.judged(&c.fitted.blocks);
-                let fits = model::plausible(
-                    &c.fitted.rig,
-                    c.kind,
-                    context,
-                    &[&self.best.rig, &self.origin.rig],
-                );
+                let fits = self.fits(&c, context);
                 (c, judged, fits)
             })
             .collect();

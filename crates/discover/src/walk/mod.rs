@@ -61,6 +61,9 @@ const WORTH: f64 = 0.02;
 /// Mean squared residual from which on a refit of the nominal model is not trusted to be near the truth.
 const GROSS: f64 = 20.0;
 
+/// A right model leaves no more than this.
+const DOWN: f64 = 1.02;
+
 /// It is worth a look where the model leaves so much more than the floor.
 const ABOVE: f64 = 1.1;
 
@@ -110,7 +113,9 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         origin = board.again(&origin)?;
     }
     let short = Board::of(rig, data, SHORT, loose.clone())?;
-    let mut walk = Walk { board, short, counts, best: refit.clone(), origin, ranking: Vec::new() };
+    let mut walk = Walk { board, short, counts, best: refit, origin, ranking: Vec::new() };
+    walk.near_the_floor()?;
+    let refit = walk.best.clone();
     let context = model::context(&walk.board, &refit);
     // To say how little of each would show.
     let start = Gram::of(&walk.board, &refit, (&context, true))?;
@@ -120,10 +125,7 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         let Some(found) = walk.step(&context, options, (round, first))? else { break };
         // A refit of what was taken is not the next effect's to claim.
         walk.best = settled(&mut walk.board, walk.best, options.seed)?;
-        // What is left near the floor by a search that stopped early is not the next effect's either.
-        if walk.judged(&walk.best.blocks).level() < polish::CLOSE_TO {
-            walk.polished()?;
-        }
+        walk.near_the_floor()?;
         walk.origin = walk.best.clone();
         walk.reclaim(&mut strayed)?;
         effects.push(found);
@@ -208,8 +210,9 @@ impl Walk<'_> {
         let candidates = self.candidates(context, options, (round, start))?;
         let mut all = self.finely(candidates)?;
         // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.
-        let down = self.nearest(&all).is_some_and(|(_, level)| level < ABOVE);
-        if now.level() > ABOVE && !down {
+        let down =
+            |c: &Candidate| self.judged(&c.fitted.blocks).level() < ABOVE && self.fits(c, context);
+        if now.level() > ABOVE && !all.iter().any(down) {
             let joints = self.begun(self.points(round)[0], context);
             all.extend(self.finely(joints)?);
             let beside = self.beside(&all);

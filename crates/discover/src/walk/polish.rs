@@ -1,6 +1,6 @@
 //! What is done to a model that is near already.
 
-use super::{REFIT, SURE, Walk};
+use super::{DOWN, REFIT, SURE, Walk};
 use crate::{
     board::{FINE, Fitted},
     verdict::Found,
@@ -17,7 +17,7 @@ const GAINED: f64 = 0.2;
 /// A model without an effect is as good if it leaves no more than so many times as much, and may become so if it
 /// leaves no more than this.
 const AS_GOOD: f64 = 1.1;
-pub(super) const CLOSE_TO: f64 = 1.4;
+const CLOSE_TO: f64 = 1.4;
 
 impl Walk<'_> {
     /// The last model and the refitted nominal one with steps that no longer show.
@@ -37,8 +37,15 @@ impl Walk<'_> {
         Ok(refit.clone())
     }
 
+    /// A model near the floor is polished before more is looked for: what a search that stopped early leaves is no
+    /// effect's.
+    pub(super) fn near_the_floor(&mut self) -> Result<(), FitError> {
+        let level = self.judged(&self.best.blocks).level();
+        if (DOWN..CLOSE_TO).contains(&level) { self.polished() } else { Ok(()) }
+    }
+
     /// The last model refitted until it falls by less than shows.
-    pub(super) fn polished(&mut self) -> Result<(), FitError> {
+    fn polished(&mut self) -> Result<(), FitError> {
         for _ in 0..POLISHED {
             let from = (self.best.x.as_slice(), self.best.pieces.as_slice());
             let next = self.board.fit(&self.best.rig, Some(from), &POLISH)?;
