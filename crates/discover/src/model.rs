@@ -116,9 +116,9 @@ pub(crate) fn reasonable(rig: &Rig, other: &Rig) -> bool {
     nominal(rig).all(|name| near(name, rig, other))
 }
 
-/// Whether friction that grows by the share s sin kq + c cos kq is nowhere between two `ends` of the motion more than
-/// (1 + `most`)/(1 − `most`) times what it is elsewhere there. Of a long wave only a part is seen, and how large it is
-/// as a whole says nothing; what it comes to everywhere is the nominal friction's.
+/// Whether friction that grows by the share s sin kq + c cos kq, k > 0, pushes nowhere between two `ends` of the motion
+/// and is nowhere there more than (1 + `most`)/(1 − `most`) times what it is elsewhere. Of a long wave only a part is
+/// seen, and how large it is as a whole says nothing; what it comes to everywhere is the nominal friction's.
 fn varies([s, c, k]: [f64; 3], [low, high]: [f64; 2], most: f64) -> bool {
     let at = |q: f64| s * (k * q).sin() + c * (k * q).cos();
     let (amplitude, phase) = (s.hypot(c), s.atan2(c));
@@ -239,7 +239,7 @@ mod tests {
         assert!(fits([3.0, 0.0, 0.5]) && !fits([3.0, 0.0, 50.0]));
         // A long wave's crest is what friction is everywhere, and its trough would push.
         assert!(fits([0.0, 3.0, 0.5]) && !fits([0.0, -3.0, 0.5]));
-        // Between 1 - 0.9 and 1 + 0.9, or 1 - 0.905 and 1 + 0.905: a crest and a trough at 1 rad to either side.
+        // Between 1 - 0.89 and 1 + 0.89, or 1 - 0.905 and 1 + 0.905: a crest and a trough 1/6 m to either side.
         let k = std::f64::consts::PI;
         assert!(fits([0.89, 0.0, 3.0 * k]) && !fits([0.905, 0.0, 3.0 * k]));
         // A quarter of a wave with its crest in the middle goes from 1 + 3 cos(π/4) to 1 + 3.

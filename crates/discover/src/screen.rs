@@ -93,8 +93,8 @@ pub(crate) fn joint(gram: &Gram, trains: &[bool]) -> (Vec<f64>, f64, Vec<f64>) {
     (by.iter().skip(gram.nominal).copied().collect(), gain, blocks)
 }
 
-/// The effects that would explain something, the best first, each at its best probe; `near` says that the model is
-/// not far from the truth.
+/// The effects that would explain something, the best first, each at its best probe and at the best with which it is
+/// plausible; `near` says that the model is not far from the truth.
 pub(crate) fn scores(gram: &Gram, near: bool, trains: &[bool]) -> Vec<Scored> {
     let train = gram.held(near, |k| trains[k]);
     let own: Vec<usize> = (0..gram.nominal).collect();
@@ -104,8 +104,8 @@ pub(crate) fn scores(gram: &Gram, near: bool, trains: &[bool]) -> Vec<Scored> {
     all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     let mut seen = Vec::new();
     all.retain(|s| {
-        let first = !seen.contains(&s.kind);
-        seen.push(s.kind);
+        let first = !seen.contains(&(s.kind, s.plausible));
+        seen.push((s.kind, s.plausible));
         first
     });
     all
@@ -213,4 +213,37 @@ fn projected(gram: &DMatrix<f64>, column: usize, places: &[usize]) -> f64 {
     }
     let own: Vec<usize> = (0..n).collect();
     left(&small, &own, &best(&small, &own))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::scores;
+    use crate::gram::{Gram, Probe};
+    use identify::effects::Kind;
+    use nalgebra::DMatrix;
+
+    #[test]
+    fn a_probe_of_the_wrong_sign_hides_none_of_the_right_one() {
+        let probe = |column: usize, v_s: f64| Probe {
+            kind: Kind::Stribeck,
+            values: vec![0.0, v_s],
+            columns: vec![column],
+            sizes: vec![1.0],
+        };
+        // The first takes 90 away with a drop of -3, the second 80 with one of 2.83.
+        let (a, b) = (30.0, -800_f64.sqrt());
+        let block = DMatrix::from_row_slice(3, 3, &[10., 0., a, 0., 10., b, a, b, 400.]);
+        let gram = Gram {
+            nominal: 0,
+            names: Vec::new(),
+            prior: Vec::new(),
+            residuals: 100.0,
+            probes: vec![probe(0, 0.2), probe(1, 0.01)],
+            blocks: vec![block],
+        };
+        let all = scores(&gram, false, &[true]);
+        assert!((all[0].gain - 90.0).abs() < 1e-9 && !all[0].plausible, "{all:?}");
+        assert!((all[1].gain - 80.0).abs() < 1e-9 && all[1].plausible, "{all:?}");
+        assert!((all[1].values[0] - 8_f64.sqrt()).abs() < 1e-9, "{all:?}");
+    }
 }

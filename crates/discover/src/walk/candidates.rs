@@ -35,7 +35,7 @@ const KEPT: usize = 8;
 /// The same for what does not begin smoothly.
 const BEGUN: [(usize, usize); 3] = [(2, 10), (4, 4), (HEAT, 2)];
 
-/// If it leaves more than a right model does, it is begun once more from so many times the amount it came to.
+/// What does not begin smoothly and leaves more than a right model is begun once more from so many times its amount.
 const AROUND: [f64; 4] = [0.8, 0.9, 1.1, 1.25];
 
 /// Near the floor so few are worth a look.

@@ -64,7 +64,10 @@ const GROSS: f64 = 20.0;
 /// A right model leaves no more than this.
 const DOWN: f64 = 1.02;
 
-/// It is worth a look where the model leaves so much more than the floor.
+/// What takes away so much of the excess explains it.
+const ALL: f64 = 0.9;
+
+/// What does not begin smoothly is worth a look where the model leaves so much more than the floor.
 const ABOVE: f64 = 1.1;
 
 /// Mean squared residual, in units of the floor, up to which nothing may be missing.
@@ -210,8 +213,10 @@ impl Walk<'_> {
         let candidates = self.candidates(context, options, (round, start))?;
         let mut all = self.finely(candidates)?;
         // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.
-        let down =
-            |c: &Candidate| self.judged(&c.fitted.blocks).level() < ABOVE && self.fits(c, context);
+        let down = |c: &Candidate| {
+            let level = self.judged(&c.fitted.blocks).level();
+            level < ABOVE && shrink(now.level(), level) > ALL && self.fits(c, context)
+        };
         if now.level() > ABOVE && !all.iter().any(down) {
             let joints = self.begun(self.points(round)[0], context);
             all.extend(self.finely(joints)?);

@@ -164,7 +164,8 @@ impl<D: Real> Model<D> {
     }
 
     /// The states of the contact at rest at the time `t` [s] that hold what the effects, in the states `others`, leave
-    /// of the drive at the input `u`. What a joint passes on is not known before the load is, and counts as nothing.
+    /// of the drive at the input `u`. What a joint passes on is not known before the load is: it counts as the springs
+    /// and the weight of a load at rest.
     pub fn holding(&self, (t, u): (f64, D), [q, v]: [D; 2], others: &[D]) -> Vec<D> {
         let force = self.drive(u, q, v);
         // As if there were no effects: of its state they see only what share of its level it holds.
