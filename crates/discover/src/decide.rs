@@ -59,6 +59,17 @@ impl Judged {
         let pairs = self.blocks.iter().zip(&other.blocks).zip(&self.counts);
         pairs.map(|((a, b), count)| count * (a - b)).sum()
     }
+
+    /// The same besides the two blocks that gain most; 0 where others lose more than a fifth of what is gained.
+    pub(crate) fn gained_besides(&self, other: &Self) -> f64 {
+        let pairs = self.blocks.iter().zip(&other.blocks).zip(&self.counts);
+        let mut gains: Vec<f64> = pairs.map(|((a, b), count)| count * (a - b)).collect();
+        gains.sort_by(f64::total_cmp);
+        let most: f64 = gains.iter().rev().take(2).sum();
+        let lost: f64 = -gains.iter().filter(|gain| **gain < 0.0).sum::<f64>();
+        let net = gains.iter().sum::<f64>();
+        if lost > 0.2 * (net + lost) { 0.0 } else { net - most }
+    }
 }
 
 /// Student's t of the mean of `values`.
@@ -105,6 +116,18 @@ mod tests {
         let (one, other) = (of([4.0, 5.0, 6.0, 4.5]), of([1.0, 1.2, 1.1, 1.3]));
         assert!(one.against(&other) > 3.0 && other.against(&one) < -3.0);
         assert!((one.gained(&other) - 149.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_a_few_blocks_gain_counts_besides_the_two_that_gain_most() {
+        let of = |blocks: [f64; 5]| Judged { blocks: blocks.to_vec(), counts: vec![10.0; 5] };
+        let now = of([9.0, 5.0, 2.0, 1.5, 1.0]);
+        // 80, 40, 10, 5 and 0.
+        assert!((now.gained_besides(&of([1.0; 5])) - 15.0).abs() < 1e-9);
+        // 80 - 30 + 10: what is lost is a third of what is gained.
+        assert_eq!(now.gained_besides(&of([1.0, 5.0, 5.0, 0.5, 1.0])), 0.0);
+        // 80 + 40 - 10 + 10: it is a thirteenth.
+        assert!((now.gained_besides(&of([1.0, 1.0, 3.0, 0.5, 1.0])) - 0.0).abs() < 1e-9);
     }
 
     #[test]

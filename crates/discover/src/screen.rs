@@ -93,6 +93,13 @@ pub(crate) fn joint(gram: &Gram, trains: &[bool]) -> (Vec<f64>, f64, Vec<f64>) {
     (by.iter().skip(gram.nominal).copied().collect(), gain, blocks)
 }
 
+/// The sum of squares left in every block without any effect, in its one column [1]; `near` as in [`scores`].
+pub(crate) fn without(gram: &Gram, near: bool, trains: &[bool]) -> Vec<Vec<f64>> {
+    let own: Vec<usize> = (0..gram.nominal).collect();
+    let by = best(&gram.held(near, |k| trains[k]), &own);
+    gram.blocks.iter().map(|block| vec![left(block, &own, &by)]).collect()
+}
+
 /// The effects that would explain something, the best first, each at its best probe and at the best with which it is
 /// plausible; `near` says that the model is not far from the truth.
 pub(crate) fn scores(gram: &Gram, near: bool, trains: &[bool]) -> Vec<Scored> {

@@ -161,6 +161,19 @@ fn a_windows_start_is_not_taken_for_sliding_where_the_drive_rests() {
 }
 
 #[test]
+fn a_window_without_a_motion_says_nothing_of_the_others() {
+    let truth = rig("name = \"coulomb\"\nf_c = 2.0", "\"f_c\"");
+    let mut data = record(&truth, 6.0, 9);
+    let middle = data.input.len() / 2;
+    data.input[middle] = f64::INFINITY;
+    let run = simulate(&truth, &data, Some(0.7)).expect("a run");
+    let moves = run.traces[0].after.iter().filter(|q| q.is_finite()).count();
+    let lost = data.input.len() - moves;
+    assert!(lost > 0 && lost < moves / 4, "{lost} samples are lost, {moves} are not");
+    assert_eq!(simulate(&truth, &data, None).err(), Some(FitError::NoMotion), "in one run");
+}
+
+#[test]
 fn a_record_without_a_motion_or_with_nothing_free_is_refused() {
     let truth = rig("name = \"coulomb\"\nf_c = 2.0", "\"f_c\"");
     let mut data = record(&truth, 6.0, 3);

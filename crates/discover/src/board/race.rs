@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 impl Board<'_> {
     /// Fits models on the training blocks, each from its own values; after each of the `heats`, of so many simulations in
-    /// all, only so many of the best are kept. Those, the best first by the logarithms of their windows' sums of squares.
-    /// What cannot be simulated is none of them.
+    /// all, only so many of the best are kept. Those, the best first by the logarithms of their windows' misfits, with
+    /// the mean of these. What cannot be simulated is none of them.
     ///
     /// Where a search ends is seen long before it ends: successive halving (Jamieson and Talwalkar, Proceedings of
     /// Machine Learning Research 51, 2016).
@@ -20,7 +20,7 @@ impl Board<'_> {
         rigs: &[(Kind, Rig)],
         heats: &[(usize, usize)],
         patience: &Patience,
-    ) -> Vec<(Kind, Rig)> {
+    ) -> Vec<(f64, Kind, Rig)> {
         let problems: Vec<(Kind, Problem<'_>)> = rigs
             .iter()
             .filter_map(|(kind, rig)| Some((*kind, self.problem(rig, |k| self.trains[k]).ok()?)))
@@ -32,8 +32,9 @@ impl Board<'_> {
             })
             .collect();
         let far = |descent: &Descent<'_, '_>| -> f64 {
-            let pieces = descent.pieces().iter();
-            pieces.map(|piece| piece.misfit().max(f64::MIN_POSITIVE).ln()).sum()
+            let pieces = descent.pieces();
+            let logarithms = pieces.iter().map(|piece| piece.misfit().max(f64::MIN_POSITIVE).ln());
+            logarithms.sum::<f64>() / pieces.len().max(1) as f64
         };
         for (simulations, kept) in heats.iter().copied().chain([(patience.simulations, usize::MAX)])
         {
@@ -43,7 +44,7 @@ impl Board<'_> {
             all.truncate(kept);
         }
         let fitted = all.into_iter().map(|(kind, problem, descent)| {
-            (kind, with_values(problem.rig, problem, &descent.found().x))
+            (far(&descent), kind, with_values(problem.rig, problem, &descent.found().x))
         });
         fitted.collect()
     }
@@ -86,8 +87,8 @@ mod tests {
         let patience = Patience { misfit: 0.1, share: 0.0, simulations: 20 };
         let left = board.raced(&all, &[(6, 1)], &patience);
         assert_eq!(left.len(), 1);
-        assert_eq!(left[0].0, Kind::CurrentBias);
-        let found = left[0].1.value("current_bias.bias").unwrap();
+        assert_eq!(left[0].1, Kind::CurrentBias);
+        let found = left[0].2.value("current_bias.bias").unwrap();
         // An acceleration is known from n samples of noise σ within a time T to σ √(720/n)/T², the start being free: of
         // 2 kg in the 16 windows of 0.625 s that are fitted to 3.1 mN.
         assert!((found - bias).abs() < 4.0 * 3.1e-3, "{found} N of {bias} N");

@@ -1,6 +1,9 @@
 //! What is told of the way's end.
 
-use super::{FIRST, MOST, SURE, Walk};
+use super::{
+    FIRST, Walk,
+    named::{MOST, SURE},
+};
 use crate::{
     board::Fitted,
     decide::shrink,

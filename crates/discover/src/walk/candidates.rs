@@ -1,6 +1,9 @@
 //! The effects that are worth a refit, and what a refit makes of them.
 
-use super::{DOWN, GROSS, NOTHING, Walk};
+use super::{
+    DOWN, GROSS, Walk,
+    named::{NOTHING, Rated},
+};
 use crate::{
     board::Fitted,
     decide::{Judged, shrink},
@@ -11,7 +14,7 @@ use crate::{
 };
 use identify::{
     Rig,
-    effects::{Context, Kind},
+    effects::{Context, Kind, LAWS},
     fit::{FitError, search::Patience},
 };
 use rayon::prelude::*;
@@ -32,11 +35,18 @@ const AFRESH: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 16 }
 const HEAT: usize = 6;
 const KEPT: usize = 8;
 
+/// Of those that go on so many do at once; what leaves so many times what the nearest does on short windows is behind.
+const AT_ONCE: usize = 2;
+const BEHIND: f64 = 2.0;
+
 /// The same for what does not begin smoothly.
 const BEGUN: [(usize, usize); 3] = [(2, 10), (4, 4), (HEAT, 2)];
 
 /// What does not begin smoothly and leaves more than a right model is begun once more from so many times its amount.
 const AROUND: [f64; 4] = [0.8, 0.9, 1.1, 1.25];
+
+/// What is begun once more is as good as a model with an effect more if it leaves no more than so many times as much.
+const AS_NEAR: f64 = 1.005;
 
 /// Near the floor so few are worth a look.
 const FEW: usize = 2;
@@ -82,7 +92,10 @@ impl Walk<'_> {
             }
             // Far from the truth the derivatives say little of where the other parameters are.
             if far && place == 0 && !self.board.imposed() {
-                all.extend(self.afresh(point, &short));
+                all.extend(self.afresh(point, &short, (&now, context)));
+                if all.iter().any(|c| self.down(&now, c, context)) {
+                    break;
+                }
             } else {
                 let near = |scored: &Scored| model::refit(&self.board, point, scored).ok();
                 all.extend(short.par_iter().filter_map(near).collect::<Vec<Candidate>>());
@@ -104,79 +117,126 @@ impl Walk<'_> {
             let all: Vec<(Kind, Rig)> = each.map(one).collect();
             near.extend(self.short.raced(&all, &BEGUN, &AFRESH));
         }
-        self.longer(near)
+        let now = self.judged(&self.best.blocks);
+        self.longer(near, (&now, context))
     }
 
-    /// What does not begin smoothly once more, if it is the nearest of all and not down at the floor, from a little more
-    /// and a little less of it: wherever the load meets its tooth between other samples there is a minimum of its own.
-    pub(super) fn beside(&self, all: &[Candidate]) -> Vec<Candidate> {
+    /// What does not begin smoothly once more, if it is the nearest of all and not down at the floor.
+    pub(super) fn beside(&self, all: &[Candidate], context: &Context) -> Vec<Candidate> {
         let Some((best, level)) = self.nearest(all) else { return Vec::new() };
         if best.kind.tried().is_empty() || level < DOWN {
             return Vec::new();
         }
-        let about = best.kind.about();
+        self.around(best.kind, &best.fitted.rig, context)
+    }
+
+    /// What does not begin smoothly once more from a little more and a little less of it than `rig` has: wherever the
+    /// load meets its tooth between other samples there is a minimum of its own.
+    fn around(&self, kind: Kind, rig: &Rig, context: &Context) -> Vec<Candidate> {
+        let about = kind.about();
         let name = format!("{}.{}", about.name, about.keys[0].name);
         let with = |share: &f64| {
-            let mut rig = best.fitted.rig.clone();
+            let mut rig = rig.clone();
             let value = rig.value(&name).unwrap_or(0.0);
             identify::fit::binding::set(&mut rig, &name, share * value);
-            (best.kind, rig)
+            (kind, rig)
         };
         let all: Vec<(Kind, Rig)> = AROUND.iter().map(with).collect();
-        self.longer(self.short.raced(&all, &[(HEAT, 2)], &AFRESH))
+        let now = self.judged(&self.best.blocks);
+        self.longer(self.short.raced(&all, &[(HEAT, 2)], &AFRESH), (&now, context))
+    }
+
+    /// The last model, if it is near the floor and has what does not begin smoothly, with that begun once more: if it
+    /// then leaves no more than what has an effect more, `found`.
+    pub(super) fn joint_anew(
+        &self,
+        now: &Judged,
+        found: &Fitted,
+        context: &Context,
+    ) -> Result<Option<Fitted>, FitError> {
+        let has = |kind: &&Kind| {
+            let name = kind.about().name;
+            !kind.tried().is_empty() && self.best.rig.effects.iter().any(|e| e.name == name)
+        };
+        let Some(kind) = LAWS.iter().find(has).filter(|_| now.level() < NOTHING) else {
+            return Ok(None);
+        };
+        let all = self.around(*kind, &self.best.rig, context);
+        let Some((nearest, _)) = self.nearest(&all) else { return Ok(None) };
+        let anew = self.ended(nearest.fitted.clone())?;
+        let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
+        let as_good = level(&anew) < AS_NEAR * level(found);
+        Ok(Some(anew).filter(|_| as_good))
     }
 
     /// The effects refitted from a `point` far from the truth by way of short windows; those go on that are near there.
-    fn afresh(&self, point: &Fitted, list: &[Scored]) -> Vec<Candidate> {
+    fn afresh(
+        &self,
+        point: &Fitted,
+        list: &[Scored],
+        (now, context): (&Judged, &Context),
+    ) -> Vec<Candidate> {
         let all: Vec<(Kind, Rig)> =
             list.iter().map(|scored| (scored.kind, model::with(point, scored))).collect();
-        self.longer(self.short.raced(&all, &[(HEAT, KEPT)], &AFRESH))
+        self.longer(self.short.raced(&all, &[(HEAT, KEPT)], &AFRESH), (now, context))
     }
 
-    /// What came near on short windows, refitted on the long ones.
-    fn longer(&self, near: Vec<(Kind, Rig)>) -> Vec<Candidate> {
-        let one = |(kind, rig): (Kind, Rig)| {
-            Some(Candidate { kind, fitted: self.board.fit(&rig, None, &AFRESH).ok()? })
-        };
-        near.into_par_iter().filter_map(one).collect()
+    /// What came near on short windows, refitted on the long ones, the nearest first; what is far behind there is not
+    /// where one of these explains all.
+    fn longer(
+        &self,
+        mut near: Vec<(f64, Kind, Rig)>,
+        (now, context): (&Judged, &Context),
+    ) -> Vec<Candidate> {
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let behind = near.first().map_or(0.0, |(nearest, ..)| nearest + BEHIND.ln());
+        let mut all: Vec<Candidate> = Vec::new();
+        for some in near.chunks(AT_ONCE) {
+            if some[0].0 > behind && all.iter().any(|c| self.down(now, c, context)) {
+                break;
+            }
+            let one = |(_, kind, rig): &(f64, Kind, Rig)| {
+                Some(Candidate { kind: *kind, fitted: self.board.fit(rig, None, &AFRESH).ok()? })
+            };
+            all.extend(some.par_iter().filter_map(one).collect::<Vec<Candidate>>());
+        }
+        all
     }
 
     /// Whether a candidate is plausible.
     pub(super) fn fits(&self, candidate: &Candidate, context: &Context) -> bool {
-        let others = [&self.best.rig, &self.origin.rig];
+        let others = [&self.best.rig, &self.origin.rig, &self.given];
         model::plausible(&candidate.fitted.rig, candidate.kind, context, &others)
     }
 
-    /// The plausible candidates, the best first, each effect once; all of them go to the ranking.
-    pub(super) fn rated(
-        &mut self,
-        candidates: Vec<Candidate>,
-        context: &Context,
-        (round, now): (usize, &Judged),
-    ) -> Vec<(Candidate, Judged)> {
-        let mut rated: Vec<(Candidate, Judged, bool)> = candidates
-            .into_iter()
-            .map(|c| {
-                let judged = self.judged(&c.fitted.blocks);
-                let fits = self.fits(&c, context);
-                (c, judged, fits)
-            })
-            .collect();
-        rated.sort_by(|a, b| a.1.level().total_cmp(&b.1.level()));
+    /// The candidates as they are judged, the best first, each effect once as far as it is plausible and once else.
+    pub(super) fn rated(&self, candidates: Vec<Candidate>, context: &Context) -> Vec<Rated> {
+        let one = |candidate: Candidate| {
+            let judged = self.judged(&candidate.fitted.blocks);
+            let plausible = self.fits(&candidate, context);
+            Rated { candidate, judged, plausible }
+        };
+        let mut rated: Vec<Rated> = candidates.into_iter().map(one).collect();
+        rated.sort_by(|a, b| a.judged.level().total_cmp(&b.judged.level()));
         let mut seen = Vec::new();
-        rated.retain(|(c, _, plausible)| {
-            let first = !seen.contains(&(c.kind, *plausible));
-            seen.push((c.kind, *plausible));
+        rated.retain(|r| {
+            let own = (r.candidate.kind, r.plausible);
+            let first = !seen.contains(&own);
+            seen.push(own);
             first
         });
-        self.ranking.extend(rated.iter().map(|(c, judged, plausible)| Ranked {
-            name: name(c.kind),
-            shrink: shrink(now.level(), judged.level()),
-            t: now.against(judged),
-            plausible: *plausible,
+        rated
+    }
+
+    /// Puts candidates down in the ranking.
+    pub(super) fn rank(&mut self, rated: &[Rated], (round, now): (usize, &Judged)) {
+        self.ranking.extend(rated.iter().map(|r| Ranked {
+            name: name(r.candidate.kind),
+            shrink: shrink(now.level(), r.judged.level()),
+            t: now.against(&r.judged),
+            plausible: r.plausible,
             round,
         }));
-        rated.into_iter().filter(|(.., plausible)| *plausible).map(|(c, j, _)| (c, j)).collect()
     }
 
     /// The candidates that may still be the best, followed to their ends.
@@ -202,15 +262,17 @@ impl Walk<'_> {
     fn short_list(
         &self,
         gram: &Gram,
-        now: &Judged,
+        there: &Judged,
         context: &Context,
         options: &Options,
     ) -> Vec<Scored> {
-        let far = now.level() > GROSS;
+        let (far, quiet) = (there.level() > GROSS, there.level() < NOTHING);
         let scores = screen::scores(gram, !far, &self.board.trains);
+        // Along the same straight lines, which far off lead the other parameters astray as well.
+        let now = self.judged(&screen::without(gram, !far, &self.board.trains));
         let gains = |s: &Scored| {
             let there = self.scored(s);
-            let near = now.level() < NOTHING && now.gained(&there) > GAIN;
+            let near = quiet && now.gained(&there) > GAIN;
             s.gain > GAIN && (near || there.level() < now.level() - FALLS)
         };
         let mut all: Vec<Scored> = scores
@@ -226,11 +288,33 @@ impl Walk<'_> {
         let more = if far { BESIDE } else { 0 };
         list.extend(rest.into_iter().take(more).map(|(_, s)| s));
         for (kind, probes) in gram::lacking(&self.board, &self.best.rig, context) {
-            if gram::has_amount(kind) || now.level() < NOTHING {
+            if gram::has_amount(kind) || quiet {
                 continue;
             }
             list.extend(probes.into_iter().map(|values| Scored::unscored(kind, values)));
         }
         list
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::walk::made::{BIAS, context, data, rig, walk, with};
+    use identify::effects::Kind;
+
+    #[test]
+    fn what_is_far_behind_is_left_where_one_explains_all() {
+        let data = data();
+        let walk = walk(&rig(2.0), &data, &[]);
+        let (context, now) = (context(&walk), walk.judged(&walk.best.blocks));
+        let near = |first: f64, bias: f64| {
+            let right = with(&rig(2.0), Kind::CurrentBias, &[bias]);
+            let others = [Kind::QuadraticDrag, Kind::CubicSpring, Kind::ViscousAsymmetry];
+            let others = others.map(|kind| (first + 1.0, kind, with(&rig(2.0), kind, &[0.0])));
+            let all = others.into_iter().chain([(first, Kind::CurrentBias, right)]).collect();
+            walk.longer(all, (&now, &context)).len()
+        };
+        // e times as far are two of four more than twice.
+        assert_eq!(near(0.0, BIAS), 2);
     }
 }

@@ -2,8 +2,13 @@
 
 mod answer;
 mod candidates;
+mod exchange;
+#[cfg(test)]
+mod made;
+mod named;
 mod places;
 mod polish;
+mod strayed;
 
 use crate::{
     board::{self, Board, FINE, Fitted, ROUGH},
@@ -11,13 +16,15 @@ use crate::{
     gram::Gram,
     model::{self, Candidate},
     screen::Scored,
-    verdict::{Discovery, Found, Options, Ranked, name},
+    verdict::{Discovery, Found, Options, Ranked},
 };
 use identify::{
     Rig,
     effects::Context,
-    fit::{Data, FitError, search::Patience, starts},
+    fit::{Data, FitError, search::Patience},
 };
+use named::{ALL, found};
+use polish::CLOSE_TO;
 
 /// The windows of a block in a first search.
 const SHORT: usize = 4;
@@ -32,46 +39,14 @@ const AS_BEFORE: f64 = 0.8;
 /// Enough to come near.
 const FIRST: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 20 };
 
-/// An effect is taken if it is better on the judging blocks by so many standard errors.
-const SURE: f64 = 3.0;
-
-/// The same near the floor.
-const CERTAIN: f64 = 3.5;
-
-/// Of two effects the second belongs to the set if it is worse by fewer standard errors, or by less than this
-/// share of the excess.
-const UNSURE: f64 = 2.0;
-const ALIKE: f64 = 0.03;
-
-/// A rival takes away at least so much of what the best one does.
-const CLOSE: f64 = 0.8;
-
-/// What takes away so much of the excess need not do so in every block alike.
-const MOST: f64 = 0.5;
-
-/// It is no name either if the sum of squares on the judging blocks falls by less than so many squared standard errors.
-const LEAST: f64 = 60.0;
-
-/// A rival leaves no more than so many times what the best one does.
-const NEAR: f64 = 1.5;
-
-/// An effect is worth a name if it takes away so much of the excess.
-const WORTH: f64 = 0.02;
-
 /// Mean squared residual from which on a refit of the nominal model is not trusted to be near the truth.
 const GROSS: f64 = 20.0;
 
 /// A right model leaves no more than this.
 const DOWN: f64 = 1.02;
 
-/// What takes away so much of the excess explains it.
-const ALL: f64 = 0.9;
-
 /// What does not begin smoothly is worth a look where the model leaves so much more than the floor.
 const ABOVE: f64 = 1.1;
-
-/// Mean squared residual, in units of the floor, up to which nothing may be missing.
-const NOTHING: f64 = 1.4;
 
 /// The walk, as far as it has come.
 struct Walk<'a> {
@@ -80,9 +55,15 @@ struct Walk<'a> {
     short: Board<'a>,
     counts: Vec<f64>,
     best: Fitted,
+    /// The model of the rig file.
+    given: Rig,
     /// The model before its refit, in the first round: what is missing drags parameters to where no effect is itself.
     origin: Fitted,
     ranking: Vec<Ranked>,
+    /// What is given and not free went far from there when it was a little loose: names and given values.
+    strayed: Vec<(String, f64)>,
+    /// The last model before what had strayed in it was held.
+    before_held: Option<strayed::Loosened>,
 }
 
 /// Looks for what the model `rig` of the record `data` lacks.
@@ -100,7 +81,7 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
     let (mut board, mut refit) = nominal(&held, data, &loose, options.seed)?;
     // What is given and not free may be a little off; what is far off is not the refit's to mend.
     let strayed = board.strayed(&refit);
-    let mut strayed: Vec<(String, f64)> =
+    let strayed: Vec<(String, f64)> =
         loose.iter().filter(|(name, _)| strayed.contains(name)).cloned().collect();
     if !strayed.is_empty() {
         loose.retain(|own| !strayed.contains(own));
@@ -116,8 +97,18 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         origin = board.again(&origin)?;
     }
     let short = Board::of(rig, data, SHORT, loose.clone())?;
-    let mut walk = Walk { board, short, counts, best: refit, origin, ranking: Vec::new() };
-    walk.near_the_floor()?;
+    let mut walk = Walk {
+        board,
+        short,
+        counts,
+        best: refit,
+        given: fixed.clone(),
+        origin,
+        ranking: Vec::new(),
+        strayed,
+        before_held: None,
+    };
+    walk.near_the_floor(CLOSE_TO)?;
     let refit = walk.best.clone();
     let context = model::context(&walk.board, &refit);
     // To say how little of each would show.
@@ -128,12 +119,15 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         let Some(found) = walk.step(&context, options, (round, first))? else { break };
         // A refit of what was taken is not the next effect's to claim.
         walk.best = settled(&mut walk.board, walk.best, options.seed)?;
-        walk.near_the_floor()?;
+        walk.near_the_floor(GROSS)?;
+        walk.reclaim()?;
+        walk.hold_strayed(options.seed)?;
         walk.origin = walk.best.clone();
-        walk.reclaim(&mut strayed)?;
         effects.push(found);
     }
+    walk.loosen_held();
     walk.drop_each(&mut effects)?;
+    walk.exchange_each(&mut effects, &context, options)?;
     let refit = walk.polish(&refit, options.seed)?;
     let before = walk.board.judged(&fixed, None)?;
     walk.answer((rig, &before, &refit), (effects, &start), &context)
@@ -211,22 +205,32 @@ impl Walk<'_> {
             self.board.refine(&self.best, ROUGH)?;
         }
         let candidates = self.candidates(context, options, (round, start))?;
-        let mut all = self.finely(candidates)?;
+        let all = self.finely(candidates)?;
+        let mut all = self.told_apart(&now, all, context)?;
         // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.
-        let down = |c: &Candidate| {
-            let level = self.judged(&c.fitted.blocks).level();
-            level < ABOVE && shrink(now.level(), level) > ALL && self.fits(c, context)
-        };
-        if now.level() > ABOVE && !all.iter().any(down) {
+        if now.level() > ABOVE && !all.iter().any(|c| self.down(&now, c, context)) {
             let joints = self.begun(self.points(round)[0], context);
             all.extend(self.finely(joints)?);
-            let beside = self.beside(&all);
+            let beside = self.beside(&all, context);
             all.extend(self.finely(beside)?);
+            all = self.told_apart(&now, all, context)?;
         }
-        let rated = self.rated(all, context, (round, &now));
+        let rated = self.rated(all, context);
+        self.rank(&rated, (round, &now));
         let Some((best, found)) = found(&now, &rated) else { return Ok(None) };
+        // What takes away the little that a play leaves may be what its own minimum besides the best leaves.
+        if let Some(anew) = self.joint_anew(&now, &best.fitted, context)? {
+            self.best = anew;
+            return self.step(context, options, (round, None));
+        }
         self.best = best.fitted.clone();
         Ok(Some(found))
+    }
+
+    /// Whether a candidate explains all that is missing.
+    fn down(&self, now: &Judged, candidate: &Candidate, context: &Context) -> bool {
+        let level = self.judged(&candidate.fitted.blocks).level();
+        level < ABOVE && shrink(now.level(), level) > ALL && self.fits(candidate, context)
     }
 
     /// The nearest of the candidates, and what it leaves.
@@ -241,109 +245,5 @@ impl Walk<'_> {
             self.board.refine(&best.fitted, FINE)?;
         }
         Ok(self.followed(candidates))
-    }
-
-    /// What had strayed because an effect was missing is a little loose again where it no longer strays.
-    fn reclaim(&mut self, strayed: &mut Vec<(String, f64)>) -> Result<(), FitError> {
-        if strayed.is_empty() {
-            return Ok(());
-        }
-        let rig = board::loosened(&self.best.rig, strayed);
-        let held = self.board.loose.len();
-        self.board.loose.append(&mut strayed.clone());
-        let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
-        let fitted = self.board.fit(&rig, Some((&x, &self.best.pieces)), &REFIT)?;
-        let better = self.board.trained(&fitted) < self.board.trained(&self.best);
-        if better && self.board.strayed(&fitted).is_empty() {
-            self.best = fitted;
-            self.origin = self.best.clone();
-            strayed.clear();
-        } else {
-            self.board.loose.truncate(held);
-        }
-        Ok(())
-    }
-}
-
-/// The best of the candidates, if it is surely there, with those that cannot be told from it; of these the simplest
-/// goes first, for what needs more numbers fits more than there is.
-fn found<'c>(now: &Judged, rated: &'c [(Candidate, Judged)]) -> Option<(&'c Candidate, Found)> {
-    let (best, judged) = rated.first()?;
-    // What noise leaves is known to a tenth or so: what lies below is no excess.
-    let floor = judged.level().min(1.0);
-    let share = |other: &Judged| shrink(now.level() / floor, other.level() / floor);
-    let gone = share(judged);
-    // Near the floor a few dozen effects are tried on nothing, and the best of them is better by chance.
-    let quiet = now.level() < NOTHING;
-    let t = now.against(judged);
-    let sure = if quiet {
-        t >= CERTAIN || (gone > MOST && now.everywhere(judged) >= CERTAIN)
-    } else {
-        t >= SURE || (gone > MOST && t >= UNSURE)
-    };
-    if !sure || gone < WORTH || now.gained(judged) < LEAST {
-        return None;
-    }
-    let rival = |(_, other): &&(Candidate, Judged)| {
-        let worse = share(other);
-        let alike = gone - worse < ALIKE * gone && other.level() < NEAR * judged.level();
-        (other.against(judged) < UNSURE || alike) && worse > CLOSE * gone
-    };
-    let mut alike = vec![(best, judged)];
-    alike.extend(rated.iter().skip(1).filter(rival).map(|(c, judged)| (c, judged)));
-    alike.sort_by_key(|(c, _)| c.kind.about().keys.len());
-    let (best, judged) = alike[0];
-    let set: Vec<&'static str> = alike.iter().map(|(c, _)| name(c.kind)).collect();
-    let separated_by =
-        if set.len() > 1 { best.kind.about().separated_by.to_owned() } else { String::new() };
-    let (shrink, t) = (share(judged), now.against(judged));
-    Some((best, Found { name: set[0], set, values: Vec::new(), shrink, t, separated_by }))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Candidate, Fitted, Judged, found};
-    use identify::{Rig, effects::LAWS};
-
-    const RIG: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n\
-        [friction]\nname = \"none\"\nsigma_2 = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n";
-
-    /// Twenty blocks of 300 residuals about this mean square, one a little above and one below it in turn.
-    fn judged(mean: f64, apart: f64) -> Judged {
-        let block = |k: usize| mean + if k.is_multiple_of(2) { apart } else { -apart };
-        Judged { blocks: (0..20).map(block).collect(), counts: vec![300.0; 20] }
-    }
-
-    fn candidate(place: usize) -> Candidate {
-        let rig = Rig::parse(RIG).unwrap();
-        let fitted = Fitted { rig, x: Vec::new(), pieces: Vec::new(), blocks: Vec::new() };
-        Candidate { kind: LAWS[place], fitted }
-    }
-
-    #[test]
-    fn what_a_floor_told_too_high_hides_is_found() {
-        // 0.03 of 6000 residuals are 180: thirteen standard errors, though all of it lies below the floor.
-        let now = judged(0.9, 0.01);
-        let rated = [(candidate(0), judged(0.87, 0.008)), (candidate(1), judged(0.899, 0.01))];
-        let (_, taken) = found(&now, &rated).expect("an effect");
-        assert_eq!((taken.set.len(), taken.shrink), (1, 1.0));
-        // And 0.005 of them 30, which the best of a few dozen effects may come to.
-        let rated = [(candidate(0), judged(0.895, 0.01))];
-        assert!(found(&now, &rated).is_none());
-    }
-
-    #[test]
-    fn what_is_better_in_every_block_is_found_however_unlike_these_are() {
-        let with = |first: f64, rest: f64| {
-            let blocks = (0..20).map(|k| if k == 0 { first } else { rest + 0.001 * f64::from(k) });
-            Judged { blocks: blocks.collect(), counts: vec![300.0; 20] }
-        };
-        let (now, then) = (with(50.0, 1.1), with(0.6, 1.0));
-        assert!(now.level() < super::NOTHING && now.against(&then) < super::CERTAIN);
-        assert!(found(&now, &[(candidate(0), then)]).is_some());
-        // In half of the blocks only it is chance.
-        let mut half = with(0.6, 1.0);
-        half.blocks.iter_mut().skip(1).step_by(2).for_each(|block| *block += 0.2);
-        assert!(found(&now, &[(candidate(0), half)]).is_none());
     }
 }

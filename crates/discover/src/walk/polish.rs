@@ -1,11 +1,20 @@
 //! What is done to a model that is near already.
 
-use super::{DOWN, REFIT, SURE, Walk};
+use super::{
+    DOWN, GROSS, REFIT, Walk,
+    named::{MOST, Rated, SURE},
+};
 use crate::{
     board::{FINE, Fitted},
+    decide::{Judged, shrink},
+    model::Candidate,
     verdict::Found,
 };
-use identify::fit::{FitError, search::Patience, starts};
+use identify::{
+    effects::Context,
+    fit::{FitError, binding, search::Patience, starts},
+};
+use rayon::prelude::*;
 
 /// Enough for a model that is near already.
 const POLISH: Patience = Patience { misfit: 0.5, share: 2e-5, simulations: 12 };
@@ -17,9 +26,79 @@ const GAINED: f64 = 0.2;
 /// A model without an effect is as good if it leaves no more than so many times as much, and may become so if it
 /// leaves no more than this.
 const AS_GOOD: f64 = 1.1;
-const CLOSE_TO: f64 = 1.4;
+pub(super) const CLOSE_TO: f64 = 1.4;
+
+/// What leaves no more than so many times what the best candidate does, and takes away as much of the excess but for
+/// this share of it, may be nearer than that where it ends.
+const CONTENDS: f64 = 3.0;
+const AS_MUCH: f64 = 0.1;
 
 impl Walk<'_> {
+    /// The candidates, and those that contend for the name at their ends: which of them is the nearest, and whether it
+    /// explains all, is seen only there.
+    pub(super) fn told_apart(
+        &mut self,
+        now: &Judged,
+        mut all: Vec<Candidate>,
+        context: &Context,
+    ) -> Result<Vec<Candidate>, FitError> {
+        let rated = self.rated(all.clone(), context);
+        let plausible = || rated.iter().filter(|r| r.plausible);
+        let Some(best) = plausible().next() else { return Ok(all) };
+        let (level, gone) = (best.judged.level(), shrink(now.level(), best.judged.level()));
+        let contends = |r: &&Rated| {
+            let there = r.judged.level();
+            there < CONTENDS * level && shrink(now.level(), there) > gone - AS_MUCH
+        };
+        let mut contenders: Vec<Candidate> =
+            plausible().filter(contends).map(|r| r.candidate.clone()).collect();
+        // Far off only the nearest may still be on its way.
+        if level > GROSS || gone < 1.0 - AS_MUCH {
+            contenders.truncate(1);
+        }
+        if level < DOWN && contenders.len() < 2 || gone < MOST {
+            return Ok(all);
+        }
+        let nearest = best.candidate.fitted.clone();
+        let mut ends = self.ends(&contenders, &nearest)?;
+        // What is nearer than before may ask for shorter steps.
+        let steps = self.board.tolerance;
+        if let Some((best, _)) = self.nearest(&ends) {
+            let best = best.fitted.clone();
+            self.board.refine(&best, FINE)?;
+            if self.board.tolerance < steps {
+                ends = self.ends(&ends, &self.board.again(&best)?)?;
+                all.retain(|c| !contenders.iter().any(|own| own.kind == c.kind));
+            }
+        }
+        all.extend(ends);
+        Ok(all)
+    }
+
+    /// Candidates at their ends, each looked for from where the `nearest` of them is as well.
+    fn ends(&self, contenders: &[Candidate], nearest: &Fitted) -> Result<Vec<Candidate>, FitError> {
+        let one = |near: &Candidate| {
+            let beside = self.beside_nearest(&self.board.again(&near.fitted)?, nearest)?;
+            Ok(Candidate { kind: near.kind, fitted: self.ended(beside)? })
+        };
+        contenders.par_iter().map(one).collect()
+    }
+
+    /// A model with what is no effect's as the `nearest` of its rivals has it, if that is better: what leads along a
+    /// valley leads the rivals to one place.
+    fn beside_nearest(&self, fitted: &Fitted, nearest: &Fitted) -> Result<Fitted, FitError> {
+        let mut rig = fitted.rig.clone();
+        for name in rig.free.clone().iter().filter(|name| !name.contains('.')) {
+            if let Some(value) = nearest.rig.value(name) {
+                binding::set(&mut rig, name, value);
+            }
+        }
+        let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
+        let there = self.board.fit(&rig, Some((&x, &nearest.pieces)), &POLISH)?;
+        let better = self.board.trained(&there) < self.board.trained(fitted);
+        Ok(if better { there } else { fitted.clone() })
+    }
+
     /// The last model and the refitted nominal one with steps that no longer show.
     pub(super) fn polish(&mut self, refit: &Fitted, seed: u64) -> Result<Fitted, FitError> {
         self.best = self.board.refined(&self.best, FINE)?;
@@ -37,28 +116,34 @@ impl Walk<'_> {
         Ok(refit.clone())
     }
 
-    /// A model near the floor is polished before more is looked for: what a search that stopped early leaves is no
-    /// effect's.
-    pub(super) fn near_the_floor(&mut self) -> Result<(), FitError> {
+    /// A model that leaves less than `most` is polished before more is looked for: what a search that stopped early
+    /// leaves is no effect's.
+    pub(super) fn near_the_floor(&mut self, most: f64) -> Result<(), FitError> {
         let level = self.judged(&self.best.blocks).level();
-        if (DOWN..CLOSE_TO).contains(&level) { self.polished() } else { Ok(()) }
+        if (DOWN..most).contains(&level) { self.polished() } else { Ok(()) }
     }
 
     /// The last model refitted until it falls by less than shows.
     fn polished(&mut self) -> Result<(), FitError> {
+        self.best = self.ended(self.best.clone())?;
+        Ok(())
+    }
+
+    /// A model refitted until it falls by less than shows.
+    pub(super) fn ended(&self, mut fitted: Fitted) -> Result<Fitted, FitError> {
         for _ in 0..POLISHED {
-            let from = (self.best.x.as_slice(), self.best.pieces.as_slice());
-            let next = self.board.fit(&self.best.rig, Some(from), &POLISH)?;
-            let gained = self.board.trained(&self.best) - self.board.trained(&next);
+            let from = (fitted.x.as_slice(), fitted.pieces.as_slice());
+            let next = self.board.fit(&fitted.rig, Some(from), &POLISH)?;
+            let gained = self.board.trained(&fitted) - self.board.trained(&next);
             if gained > 0.0 {
-                self.best = next;
+                fitted = next;
             }
             // The logarithms of the blocks fall by their shares.
             if gained * self.counts.iter().sum::<f64>() < GAINED * self.counts.len() as f64 {
                 break;
             }
         }
-        Ok(())
+        Ok(fitted)
     }
 
     /// Takes away again every effect without which a refit is as good: it had only shown the way.
@@ -88,5 +173,38 @@ impl Walk<'_> {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        model::Candidate,
+        walk::made::{BIAS, context, data, rig, walk, with},
+    };
+    use identify::effects::Kind;
+
+    #[test]
+    fn those_that_contend_are_told_apart_where_they_end() {
+        let data = data();
+        let mut walk = walk(&rig(2.0), &data, &[]);
+        let context = context(&walk);
+        let now = walk.judged(&walk.best.blocks);
+        let near = |kind: Kind, values: &[f64]| {
+            let fitted = walk.board.judged(&with(&rig(2.0), kind, values), None).unwrap();
+            Candidate { kind, fitted }
+        };
+        let bias = near(Kind::CurrentBias, &[0.75 * BIAS]);
+        // So long a wave is as good as a constant force on this record, and here nearer to the right one.
+        let cogging = near(Kind::Cogging, &[0.0, -0.8 * BIAS, 0.1]);
+        let [before, there] = [&bias, &cogging].map(|c| walk.judged(&c.fitted.blocks).level());
+        assert!(there < before && before < super::CONTENDS * there, "{there} {before}");
+        let all = walk.told_apart(&now, vec![bias, cogging], &context).unwrap();
+        for kind in [Kind::CurrentBias, Kind::Cogging] {
+            let levels = all.iter().filter(|c| c.kind == kind);
+            let levels = levels.map(|c| walk.judged(&c.fitted.blocks).level());
+            let end = levels.fold(f64::INFINITY, f64::min);
+            assert!(end < 1.05, "{kind:?} ends at {end}");
+        }
     }
 }

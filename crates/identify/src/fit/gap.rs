@@ -80,7 +80,8 @@ pub fn simulate(rig: &Rig, data: &Data, window: Option<f64>) -> Result<Simulated
         None => Way::OneRun,
     };
     let pieces = models::settled(&problem, &[], None, 2);
-    if pieces.iter().any(|p| p.motion.q.is_empty()) {
+    // A window that is lost says nothing of the others.
+    if pieces.iter().all(|p| p.motion.q.is_empty()) {
         return Err(FitError::NoMotion);
     }
     let found =

@@ -1,0 +1,44 @@
+//! Whether an effect that was found first is still the one beside those found after it.
+
+use super::{REFIT, Walk};
+use crate::verdict::{Found, Options};
+use identify::{
+    effects::Context,
+    fit::{FitError, starts},
+};
+
+impl Walk<'_> {
+    /// Looks once more for every effect but the last, beside all others: what was found first made up for what was
+    /// found later as well, and a richer effect does that better than a simple one.
+    pub(super) fn exchange_each(
+        &mut self,
+        effects: &mut [Found],
+        context: &Context,
+        options: &Options,
+    ) -> Result<(), FitError> {
+        for place in 0..effects.len().saturating_sub(1) {
+            let (before, ranked) = (self.best.clone(), self.ranking.len());
+            let name = effects[place].name;
+            let mut rig = before.rig.clone();
+            rig.effects.retain(|effect| effect.name != name);
+            rig.free.retain(|free| !free.starts_with(&format!("{name}.")));
+            let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
+            self.best = self.board.fit(&rig, Some((&x, &before.pieces)), &REFIT)?;
+            self.origin = self.best.clone();
+            let again = self.step(context, options, (effects.len(), None))?;
+            self.ranking.truncate(ranked);
+            let [then, now] = [&before, &self.best].map(|f| self.judged(&f.blocks));
+            match again {
+                Some(found) if found.name != name && now.against(&then) < super::named::UNSURE => {
+                    effects[place] = found;
+                }
+                Some(found) if found.name == name => {
+                    effects[place].set = found.set;
+                    self.best = before;
+                }
+                _ => self.best = before,
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,75 @@
+//! A walk at its beginning, for the tests of its steps.
+
+use super::Walk;
+use crate::board::{Board, Fitted};
+use identify::{
+    Hold, Rig,
+    effects::{Context, Kind},
+    fit::{Data, Seen},
+};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+/// The force that the rig's equation does not ask for [N].
+pub(super) const BIAS: f64 = 0.3;
+
+/// A mass of `mass` [kg] on a spring of 3 N/m.
+pub(super) fn rig(mass: f64) -> Rig {
+    let text = format!(
+        "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = {mass:?}\nstiffness = 3.0\n\
+         [friction]\nname = \"none\"\nsigma_2 = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n"
+    );
+    Rig::parse(&text).expect("a rig")
+}
+
+/// x = sin 2t of 2 kg under the force that its equation asks for, but for the bias; noise of 1 mm.
+pub(super) fn data() -> Data {
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
+    let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
+    let input = time.iter().map(|t| {
+        let (s, c) = f64::sin_cos(2.0 * t);
+        (3.0 - 2.0 * 4.0) * s + 0.5 * 2.0 * c - BIAS
+    });
+    let input = input.collect();
+    let seen = time.iter().map(|t| (2.0 * t).sin() + 1e-3 * noise()).collect();
+    Data::driven(time, input, Hold::Linear, Seen::new("position", seen, 0.0))
+}
+
+/// The walk on `data` with the model `rig`, in which all is as given.
+pub(super) fn walk<'a>(rig: &Rig, data: &'a Data, loose: &[(String, f64)]) -> Walk<'a> {
+    let board = Board::of(rig, data, 1, loose.to_vec()).expect("a board");
+    let short = Board::of(rig, data, super::SHORT, loose.to_vec()).expect("a board");
+    let counts = board.samples();
+    let best = board.judged(rig, None).expect("a motion");
+    let given = Fitted::holding(rig);
+    Walk {
+        board,
+        short,
+        counts,
+        origin: best.clone(),
+        best,
+        given,
+        ranking: Vec::new(),
+        strayed: Vec::new(),
+        before_held: None,
+    }
+}
+
+/// The same with an effect.
+pub(super) fn with(rig: &Rig, kind: Kind, values: &[f64]) -> Rig {
+    let mut rig = rig.clone();
+    crate::gram::with(&mut rig, kind, &[], 0);
+    let about = kind.about();
+    for (key, value) in about.keys.iter().zip(values) {
+        let name = format!("{}.{}", about.name, key.name);
+        identify::fit::binding::set(&mut rig, &name, *value);
+    }
+    rig
+}
+
+/// The sizes of the record.
+pub(super) fn context(walk: &Walk<'_>) -> Context {
+    crate::model::context(&walk.board, &walk.best)
+}

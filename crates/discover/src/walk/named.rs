@@ -1,0 +1,202 @@
+//! Which of the candidates is named.
+
+use crate::{
+    decide::{Judged, shrink},
+    model::Candidate,
+    verdict::{Found, name},
+};
+
+/// An effect is taken if it is better on the judging blocks by so many standard errors.
+pub(super) const SURE: f64 = 3.0;
+
+/// The same near the floor.
+const CERTAIN: f64 = 3.5;
+
+/// Of two effects the second belongs to the set if it is worse by fewer standard errors, or by less than this
+/// share of the excess.
+pub(super) const UNSURE: f64 = 2.0;
+const ALIKE: f64 = 0.03;
+
+/// A rival takes away at least so much of what the best one does.
+const CLOSE: f64 = 0.8;
+
+/// What takes away so much of the excess need not do so in every block alike.
+pub(super) const MOST: f64 = 0.5;
+
+/// What takes away so much of the excess explains it.
+pub(super) const ALL: f64 = 0.9;
+
+/// It is no name either if the sum of squares on the judging blocks falls by less than so many squared standard errors.
+const LEAST: f64 = 60.0;
+
+/// A rival leaves no more than so many times what the best one does; and no more than so many if it is to be named
+/// instead because it is simpler.
+const NEAR: f64 = 1.5;
+const AS_NEAR: f64 = 1.1;
+
+/// An effect is worth a name if it takes away so much of the excess.
+const WORTH: f64 = 0.02;
+
+/// Mean squared residual, in units of the floor, up to which nothing may be missing.
+pub(super) const NOTHING: f64 = 1.4;
+
+/// A candidate as it is judged.
+#[derive(Debug)]
+pub(super) struct Rated {
+    pub(super) candidate: Candidate,
+    pub(super) judged: Judged,
+    /// Whether its values are plausible.
+    pub(super) plausible: bool,
+}
+
+impl Rated {
+    fn name(&self) -> &'static str {
+        name(self.candidate.kind)
+    }
+}
+
+/// The best of the candidates that is surely there, with those that cannot be told from it; of these the simplest
+/// goes first, for what needs more numbers fits more than there is. `rated` begins with the best.
+pub(super) fn found<'r>(now: &Judged, rated: &'r [Rated]) -> Option<(&'r Candidate, Found)> {
+    let mut plausible = rated.iter().filter(|r| r.plausible);
+    // What noise leaves is known to a tenth or so: what lies below is no excess.
+    let floor = plausible.clone().next()?.judged.level().min(1.0);
+    let share = |other: &Judged| shrink(now.level() / floor, other.level() / floor);
+    let first = plausible.clone().next().map_or(0.0, |r| share(&r.judged));
+    let best = plausible.find(|r| {
+        let gone = share(&r.judged);
+        gone > CLOSE * first && sure(now, &r.judged, gone)
+    })?;
+    let gone = share(&best.judged);
+    let rival = |r: &&Rated| {
+        let worse = share(&r.judged);
+        let near = r.judged.level() < NEAR * best.judged.level();
+        let alike = gone - worse < ALIKE * gone && near;
+        (r.judged.against(&best.judged) < UNSURE || alike) && worse > CLOSE * gone
+    };
+    let alike: Vec<&Rated> = [best].into_iter().chain(plausible.filter(rival)).collect();
+    let no_worse = |r: &&&Rated| {
+        r.judged.against(&best.judged) < UNSURE && r.judged.level() < AS_NEAR * best.judged.level()
+    };
+    let keys = |r: &&&Rated| r.candidate.kind.about().keys.len();
+    let named = alike.iter().filter(no_worse).min_by_key(keys).unwrap_or(&best);
+    let others = alike.iter().map(|r| r.name()).filter(|other| *other != named.name());
+    let set: Vec<&'static str> = [named.name()].into_iter().chain(others).collect();
+    let about = named.candidate.kind.about();
+    let separated_by = if set.len() > 1 { about.separated_by.to_owned() } else { String::new() };
+    let (shrink, t) = (share(&named.judged), now.against(&named.judged));
+    let found = Found { name: named.name(), set, values: Vec::new(), shrink, t, separated_by };
+    Some((&named.candidate, found))
+}
+
+/// Whether what takes away the share `gone` of the excess is surely there.
+fn sure(now: &Judged, judged: &Judged, gone: f64) -> bool {
+    let t = now.against(judged);
+    let rarely = || now.gained_besides(judged) > 2.0 * LEAST;
+    // Near the floor a few dozen effects are tried on nothing, and the best of them is better by chance.
+    let sure = if now.level() < NOTHING {
+        t >= CERTAIN || (gone > MOST && (now.everywhere(judged) >= CERTAIN || rarely()))
+    } else {
+        t >= SURE || (gone > MOST && t >= UNSURE) || (gone > ALL && rarely())
+    };
+    sure && gone >= WORTH && now.gained(judged) >= LEAST
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Candidate, Judged, Rated, found};
+    use crate::board::Fitted;
+    use identify::{Rig, effects::LAWS};
+
+    const RIG: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n\
+        [friction]\nname = \"none\"\nsigma_2 = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n";
+
+    /// Twenty blocks of 300 residuals about this mean square, one a little above and one below it in turn.
+    fn judged(mean: f64, apart: f64) -> Judged {
+        let block = |k: usize| mean + if k.is_multiple_of(2) { apart } else { -apart };
+        Judged { blocks: (0..20).map(block).collect(), counts: vec![300.0; 20] }
+    }
+
+    fn rated(place: usize, judged: Judged) -> Rated {
+        Rated { candidate: candidate(place), judged, plausible: true }
+    }
+
+    fn candidate(place: usize) -> Candidate {
+        let rig = Rig::parse(RIG).unwrap();
+        let fitted = Fitted { rig, x: Vec::new(), pieces: Vec::new(), blocks: Vec::new() };
+        Candidate { kind: LAWS[place], fitted }
+    }
+
+    #[test]
+    fn what_a_floor_told_too_high_hides_is_found() {
+        // 0.03 of 6000 residuals are 180: thirteen standard errors, though all of it lies below the floor.
+        let now = judged(0.9, 0.01);
+        let all = [rated(0, judged(0.87, 0.008)), rated(1, judged(0.899, 0.01))];
+        let (_, taken) = found(&now, &all).expect("an effect");
+        assert_eq!((taken.set.len(), taken.shrink), (1, 1.0));
+        // And 0.005 of them 30, which the best of a few dozen effects may come to.
+        let all = [rated(0, judged(0.895, 0.01))];
+        assert!(found(&now, &all).is_none());
+    }
+
+    #[test]
+    fn what_acts_in_a_few_blocks_is_found_and_one_that_went_astray_is_not() {
+        // 1.5 floors in each of so many blocks, and the others as a right model leaves them.
+        let with = |far: usize, most: f64| {
+            let blocks = (0..20).map(|k| if k < far { most } else { 1.0 + 0.001 * k as f64 });
+            Judged { blocks: blocks.collect(), counts: vec![300.0; 20] }
+        };
+        let after = || with(0, 1.0);
+        assert!(with(3, 2.5).against(&after()) < super::UNSURE);
+        assert!(found(&with(3, 2.5), &[rated(0, after())]).is_some());
+        assert!(found(&with(2, 2.5), &[rated(0, after())]).is_none());
+    }
+
+    #[test]
+    fn the_simplest_is_named_where_it_is_no_worse() {
+        let keys = |place: usize| LAWS[place].about().keys.len();
+        let places = 0..LAWS.len();
+        let (simple, other) = (
+            places.clone().min_by_key(|place| keys(*place)).unwrap(),
+            places.max_by_key(|place| keys(*place)).unwrap(),
+        );
+        let now = judged(30.0, 1.0);
+        let both =
+            |level: f64| [rated(other, judged(1.0, 0.05)), rated(simple, judged(level, -0.05))];
+        let all = both(1.001);
+        let (best, taken) = found(&now, &all).unwrap();
+        assert_eq!((best.kind, taken.set.len()), (LAWS[simple], 2));
+        // Surely worse, it is still what takes away nearly as much.
+        let all = both(1.2);
+        let (best, taken) = found(&now, &all).unwrap();
+        assert_eq!((best.kind, taken.set.len()), (LAWS[other], 2));
+    }
+
+    #[test]
+    fn what_is_surely_there_is_named_though_another_is_nearer() {
+        let now = judged(30.0, 1.0);
+        // One block is far better, the others are worse.
+        let mut lucky = judged(31.0, 1.0);
+        lucky.blocks[3] = 1e-40;
+        let mut all = [rated(0, lucky), rated(1, judged(1.2, 0.01))];
+        let (best, _) = found(&now, &all).unwrap();
+        assert_eq!(best.kind, LAWS[1]);
+        all[1].plausible = false;
+        assert!(found(&now, &all).is_none());
+    }
+
+    #[test]
+    fn what_is_better_in_every_block_is_found_however_unlike_these_are() {
+        let with = |first: f64, rest: f64| {
+            let blocks = (0..20).map(|k| if k == 0 { first } else { rest + 0.001 * f64::from(k) });
+            Judged { blocks: blocks.collect(), counts: vec![300.0; 20] }
+        };
+        let (now, then) = (with(50.0, 1.1), with(0.6, 1.0));
+        assert!(now.level() < super::NOTHING && now.against(&then) < super::CERTAIN);
+        assert!(found(&now, &[rated(0, then)]).is_some());
+        // In half of the blocks only it is chance.
+        let mut half = with(0.6, 1.0);
+        half.blocks.iter_mut().skip(1).step_by(2).for_each(|block| *block += 0.2);
+        assert!(found(&now, &[rated(0, half)]).is_none());
+    }
+}
