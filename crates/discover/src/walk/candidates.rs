@@ -268,17 +268,20 @@ impl Walk<'_> {
     ) -> Vec<Scored> {
         let (far, quiet) = (there.level() > GROSS, there.level() < NOTHING);
         let scores = screen::scores(gram, !far, &self.board.trains);
-        // Along the same straight lines, which far off lead the other parameters astray as well.
-        let now = self.judged(&screen::without(gram, !far, &self.board.trains));
-        let gains = |s: &Scored| {
-            let there = self.scored(s);
-            let near = quiet && now.gained(&there) > GAIN;
-            s.gain > GAIN && (near || there.level() < now.level() - FALLS)
+        let gains = |than: &Judged| -> Vec<Scored> {
+            let gains = |s: &&Scored| {
+                let with = self.scored(s);
+                let near = quiet && than.gained(&with) > GAIN;
+                s.gain > GAIN && (near || with.level() < than.level() - FALLS)
+            };
+            let smooth = |s: &&Scored| s.kind.tried().is_empty() && s.plausible;
+            scores.iter().filter(smooth).filter(gains).cloned().collect()
         };
-        let mut all: Vec<Scored> = scores
-            .into_iter()
-            .filter(|s| s.kind.tried().is_empty() && s.plausible && gains(s))
-            .collect();
+        let mut all = gains(there);
+        if all.is_empty() && far {
+            // Far off straight lines lead the other parameters astray as well: beside what they give without an effect.
+            all = gains(&self.judged(&screen::without(gram, !far, &self.board.trains)));
+        }
         let rest = all.split_off(options.short_list.min(all.len()));
         let mut list = all;
         // Far from the truth a gain along a straight line says little; what the judging blocks say of it, more.

@@ -34,6 +34,7 @@ impl Walk<'_> {
                 }
                 Some(found) if found.name == name => {
                     effects[place].set = found.set;
+                    effects[place].separated_by = found.separated_by;
                     self.best = before;
                 }
                 _ => self.best = before,
