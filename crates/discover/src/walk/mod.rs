@@ -217,7 +217,7 @@ impl Walk<'_> {
         }
         let rated = self.rated(all, context);
         self.rank(&rated, (round, &now));
-        let Some((best, found)) = found(&now, &rated) else { return Ok(None) };
+        let Some((best, found)) = found(&now, &rated, round) else { return Ok(None) };
         // What takes away the little that a play leaves may be what its own minimum besides the best leaves.
         if let Some(anew) = self.joint_anew(&now, &best.fitted, context)? {
             self.best = anew;

@@ -57,7 +57,11 @@ impl Rated {
 
 /// The best of the candidates that is surely there, with those that cannot be told from it; of these the simplest
 /// goes first, for what needs more numbers fits more than there is. `rated` begins with the best.
-pub(super) fn found<'r>(now: &Judged, rated: &'r [Rated]) -> Option<(&'r Candidate, Found)> {
+pub(super) fn found<'r>(
+    now: &Judged,
+    rated: &'r [Rated],
+    round: usize,
+) -> Option<(&'r Candidate, Found)> {
     let mut plausible = rated.iter().filter(|r| r.plausible);
     // What noise leaves is known to a tenth or so: what lies below is no excess.
     let floor = plausible.clone().next()?.judged.level().min(1.0);
@@ -65,7 +69,7 @@ pub(super) fn found<'r>(now: &Judged, rated: &'r [Rated]) -> Option<(&'r Candida
     let first = plausible.clone().next().map_or(0.0, |r| share(&r.judged));
     let best = plausible.find(|r| {
         let gone = share(&r.judged);
-        gone > CLOSE * first && sure(now, &r.judged, gone)
+        gone > CLOSE * first && sure(now, &r.judged, (gone, round))
     })?;
     let gone = share(&best.judged);
     let rival = |r: &&Rated| {
@@ -90,9 +94,10 @@ pub(super) fn found<'r>(now: &Judged, rated: &'r [Rated]) -> Option<(&'r Candida
 }
 
 /// Whether what takes away the share `gone` of the excess is surely there.
-fn sure(now: &Judged, judged: &Judged, gone: f64) -> bool {
+fn sure(now: &Judged, judged: &Judged, (gone, round): (f64, usize)) -> bool {
     let t = now.against(judged);
-    let rarely = || now.gained_besides(judged) > 2.0 * LEAST;
+    // What an effect leaves in a few blocks because it does not begin as the record does is no other effect's.
+    let rarely = || round == 0 && now.gained_besides(judged) > 2.0 * LEAST;
     // Near the floor a few dozen effects are tried on nothing, and the best of them is better by chance.
     let sure = if now.level() < NOTHING {
         t >= CERTAIN || (gone > MOST && (now.everywhere(judged) >= CERTAIN || rarely()))
@@ -132,11 +137,11 @@ mod tests {
         // 0.03 of 6000 residuals are 180: thirteen standard errors, though all of it lies below the floor.
         let now = judged(0.9, 0.01);
         let all = [rated(0, judged(0.87, 0.008)), rated(1, judged(0.899, 0.01))];
-        let (_, taken) = found(&now, &all).expect("an effect");
+        let (_, taken) = found(&now, &all, 0).expect("an effect");
         assert_eq!((taken.set.len(), taken.shrink), (1, 1.0));
         // And 0.005 of them 30, which the best of a few dozen effects may come to.
         let all = [rated(0, judged(0.895, 0.01))];
-        assert!(found(&now, &all).is_none());
+        assert!(found(&now, &all, 0).is_none());
     }
 
     #[test]
@@ -148,8 +153,9 @@ mod tests {
         };
         let after = || with(0, 1.0);
         assert!(with(3, 2.5).against(&after()) < super::UNSURE);
-        assert!(found(&with(3, 2.5), &[rated(0, after())]).is_some());
-        assert!(found(&with(2, 2.5), &[rated(0, after())]).is_none());
+        assert!(found(&with(3, 2.5), &[rated(0, after())], 0).is_some());
+        assert!(found(&with(2, 2.5), &[rated(0, after())], 0).is_none());
+        assert!(found(&with(3, 2.5), &[rated(0, after())], 1).is_none(), "beside another effect");
     }
 
     #[test]
@@ -164,11 +170,11 @@ mod tests {
         let both =
             |level: f64| [rated(other, judged(1.0, 0.05)), rated(simple, judged(level, -0.05))];
         let all = both(1.001);
-        let (best, taken) = found(&now, &all).unwrap();
+        let (best, taken) = found(&now, &all, 0).unwrap();
         assert_eq!((best.kind, taken.set.len()), (LAWS[simple], 2));
         // Surely worse, it is still what takes away nearly as much.
         let all = both(1.2);
-        let (best, taken) = found(&now, &all).unwrap();
+        let (best, taken) = found(&now, &all, 0).unwrap();
         assert_eq!((best.kind, taken.set.len()), (LAWS[other], 2));
     }
 
@@ -179,10 +185,10 @@ mod tests {
         let mut lucky = judged(31.0, 1.0);
         lucky.blocks[3] = 1e-40;
         let mut all = [rated(0, lucky), rated(1, judged(1.2, 0.01))];
-        let (best, _) = found(&now, &all).unwrap();
+        let (best, _) = found(&now, &all, 0).unwrap();
         assert_eq!(best.kind, LAWS[1]);
         all[1].plausible = false;
-        assert!(found(&now, &all).is_none());
+        assert!(found(&now, &all, 0).is_none());
     }
 
     #[test]
@@ -193,10 +199,10 @@ mod tests {
         };
         let (now, then) = (with(50.0, 1.1), with(0.6, 1.0));
         assert!(now.level() < super::NOTHING && now.against(&then) < super::CERTAIN);
-        assert!(found(&now, &[rated(0, then)]).is_some());
+        assert!(found(&now, &[rated(0, then)], 0).is_some());
         // In half of the blocks only it is chance.
         let mut half = with(0.6, 1.0);
         half.blocks.iter_mut().skip(1).step_by(2).for_each(|block| *block += 0.2);
-        assert!(found(&now, &[rated(0, half)]).is_none());
+        assert!(found(&now, &[rated(0, half)], 0).is_none());
     }
 }
