@@ -33,6 +33,14 @@ fn what_is_hidden_in_the_committed_records_is_found() {
 }
 
 #[test]
+fn a_table_with_gaps_is_not_kept() {
+    let project = Project::new(&[]);
+    let ran = project.run(&["bench", "hidden-effects", "--from", RECORDS, "--save"]);
+    assert_eq!(ran.code, Some(4), "{ran:?}");
+    assert!(ran.err.contains("2 is followed by 7"), "{}", ran.err);
+}
+
+#[test]
 fn the_committed_records_are_few_and_small() {
     let files = std::fs::read_dir(Path::new(RECORDS)).expect("the folder").flatten();
     let bytes: u64 = files.map(|file| file.metadata().expect("a file").len()).sum();

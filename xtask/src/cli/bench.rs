@@ -132,7 +132,7 @@ pub(crate) struct HiddenArgs {
     #[arg(long, conflicts_with_all = ["records", "seed", "threads"])]
     pub(crate) kept: bool,
     /// Run the records in this folder, which --write has made, one at a time.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["records", "seed", "threads", "save", "kept"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["records", "seed", "threads", "kept"])]
     pub(crate) from: Option<PathBuf>,
     /// Run nothing and write records with their rig files here, and their truths and keys to truth/ in it.
     #[arg(long, value_name = "DIR", requires = "seeds", conflicts_with_all = ["records", "seed", "threads", "save", "kept", "from", "markdown", "json"])]

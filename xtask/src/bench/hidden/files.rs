@@ -56,8 +56,9 @@ pub(super) fn write_cases(folder: &Path, seeds: &[u64], seconds: f64) -> Result<
     Ok(())
 }
 
-/// The rows of all cases that stand in a folder, in the order of their seeds.
-pub(super) fn rows(folder: &Path) -> Result<Vec<Row>, Failure> {
+/// The rows of all cases that stand in a folder, in the order of their seeds. A table that is to be `kept` can be made
+/// again from its first seed and their number.
+pub(super) fn rows(folder: &Path, kept: bool) -> Result<Vec<Row>, Failure> {
     let shown = folder.display().to_string();
     let entries = fs::read_dir(folder).with_context(|| shown.clone()).map_err(input)?;
     let paths = entries.flatten().map(|entry| entry.path());
@@ -69,6 +70,13 @@ pub(super) fn rows(folder: &Path) -> Result<Vec<Row>, Failure> {
         let expected =
             "expected records named by their seeds, as 17.parquet; make some with --write";
         return Err(input(anyhow!("{shown}: {expected}")));
+    }
+    if let Some(gap) = seeds.windows(2).find(|pair| kept && pair[1] != pair[0] + 1) {
+        let (before, after) = (gap[0], gap[1]);
+        let told = "a table that is kept has every seed from its first to its last";
+        return Err(input(anyhow!(
+            "{shown}: {before} is followed by {after}; {told}: write the others too"
+        )));
     }
     seeds.into_iter().map(|seed| row(folder, seed)).collect()
 }

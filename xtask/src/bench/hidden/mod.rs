@@ -41,7 +41,7 @@ pub(super) fn run(root: &Path, arguments: &HiddenArgs) -> Result<Exit, Failure> 
     }
     let (rows, at_once) = match &arguments.from {
         _ if arguments.kept => (kept(root)?, None),
-        Some(folder) => (files::rows(folder)?, Some(1)),
+        Some(folder) => (files::rows(folder, arguments.save)?, Some(1)),
         None => (rows(arguments, threads)?, Some(threads)),
     };
     if arguments.json {
@@ -53,7 +53,11 @@ pub(super) fn run(root: &Path, arguments: &HiddenArgs) -> Result<Exit, Failure> 
     }
     if arguments.save {
         if !arguments.kept {
-            let (records, seed) = (arguments.records, arguments.seed);
+            let (records, seed) = match (&arguments.from, rows.first()) {
+                // The same records, for all hangs on their seeds.
+                (Some(_), Some(first)) => (rows.len(), first.seed),
+                _ => (arguments.records, arguments.seed),
+            };
             let command = format!(
                 "cargo xtask bench hidden-effects --records {records} --seed {seed} --save"
             );
