@@ -113,19 +113,7 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
     let context = model::context(&walk.board, &refit);
     // To say how little of each would show.
     let start = Gram::of(&walk.board, &refit, (&context, true))?;
-    let mut effects: Vec<Found> = Vec::new();
-    for round in 0..options.most {
-        let first = Some(&start).filter(|_| round == 0);
-        let Some(found) = walk.step(&context, options, (round, first))? else { break };
-        // A refit of what was taken is not the next effect's to claim.
-        walk.best = settled(&mut walk.board, walk.best, options.seed)?;
-        walk.near_the_floor(GROSS)?;
-        walk.reclaim()?;
-        walk.hold_strayed(options.seed)?;
-        walk.origin = walk.best.clone();
-        effects.push(found);
-    }
-    walk.loosen_held();
+    let mut effects = walk.rounds(&context, options, &start)?;
     walk.drop_each(&mut effects)?;
     walk.exchange_each(&mut effects, &context, options)?;
     let refit = walk.polish(&refit, options.seed)?;
@@ -191,6 +179,33 @@ impl Walk<'_> {
     fn scored(&self, scored: &Scored) -> Judged {
         let blocks: Vec<Vec<f64>> = scored.left.iter().map(|sum| vec![*sum]).collect();
         self.judged(&blocks)
+    }
+
+    /// Effect after effect, for as long as there is one more.
+    fn rounds(
+        &mut self,
+        context: &Context,
+        options: &Options,
+        start: &Gram,
+    ) -> Result<Vec<Found>, FitError> {
+        let mut effects: Vec<Found> = Vec::new();
+        for round in 0..options.most {
+            let first = Some(start).filter(|_| round == 0);
+            let before = (self.board.clone(), self.best.clone());
+            let Some(found) = self.step(context, options, (round, first))? else { break };
+            // A refit of what was taken is not the next effect's to claim.
+            self.best = settled(&mut self.board, self.best.clone(), options.seed)?;
+            self.near_the_floor(GROSS)?;
+            if !self.lasts(before)? {
+                break;
+            }
+            self.reclaim()?;
+            self.hold_strayed(options.seed)?;
+            self.origin = self.best.clone();
+            effects.push(found);
+        }
+        self.loosen_held();
+        Ok(effects)
     }
 
     /// One effect more, if there is one that is surely there.

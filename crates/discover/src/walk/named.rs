@@ -29,10 +29,8 @@ pub(super) const ALL: f64 = 0.9;
 /// It is no name either if the sum of squares on the judging blocks falls by less than so many squared standard errors.
 const LEAST: f64 = 60.0;
 
-/// A rival leaves no more than so many times what the best one does; and no more than so many if it is to be named
-/// instead because it is simpler.
+/// A rival leaves no more than so many times what the best one does.
 const NEAR: f64 = 1.5;
-const AS_NEAR: f64 = 1.1;
 
 /// An effect is worth a name if it takes away so much of the excess.
 const WORTH: f64 = 0.02;
@@ -79,9 +77,7 @@ pub(super) fn found<'r>(
         (r.judged.against(&best.judged) < UNSURE || alike) && worse > CLOSE * gone
     };
     let alike: Vec<&Rated> = [best].into_iter().chain(plausible.filter(rival)).collect();
-    let no_worse = |r: &&&Rated| {
-        r.judged.against(&best.judged) < UNSURE && r.judged.level() < AS_NEAR * best.judged.level()
-    };
+    let no_worse = |r: &&&Rated| r.judged.against(&best.judged) < UNSURE;
     let keys = |r: &&&Rated| r.candidate.kind.about().keys.len();
     let named = alike.iter().filter(no_worse).min_by_key(keys).unwrap_or(&best);
     let others = alike.iter().map(|r| r.name()).filter(|other| *other != named.name());

@@ -5,7 +5,7 @@ use super::{
     named::{MOST, Rated, SURE},
 };
 use crate::{
-    board::{FINE, Fitted},
+    board::{Board, FINE, Fitted},
     decide::{Judged, shrink},
     model::Candidate,
     verdict::Found,
@@ -33,7 +33,7 @@ pub(super) const CLOSE_TO: f64 = 1.4;
 const CONTENDS: f64 = 3.0;
 const AS_MUCH: f64 = 0.1;
 
-impl Walk<'_> {
+impl<'a> Walk<'a> {
     /// The candidates, and those that contend for the name at their ends: which of them is the nearest, and whether it
     /// explains all, is seen only there.
     pub(super) fn told_apart(
@@ -121,6 +121,18 @@ impl Walk<'_> {
     pub(super) fn near_the_floor(&mut self, most: f64) -> Result<(), FitError> {
         let level = self.judged(&self.best.blocks).level();
         if (DOWN..most).contains(&level) { self.polished() } else { Ok(()) }
+    }
+
+    /// Whether the last model is better than the one `before` with the steps that it asks for; if not, all is as it was
+    /// `before`. What is near with long steps may be near with those only.
+    pub(super) fn lasts(&mut self, before: (Board<'a>, Fitted)) -> Result<bool, FitError> {
+        let there = self.board.again(&before.1)?;
+        let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
+        let lasts = level(&self.best) < level(&there);
+        if !lasts {
+            (self.board, self.best) = before;
+        }
+        Ok(lasts)
     }
 
     /// The last model refitted until it falls by less than shows.
