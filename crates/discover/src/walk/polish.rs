@@ -219,4 +219,20 @@ mod tests {
             assert!(end < 1.05, "{kind:?} ends at {end}");
         }
     }
+
+    #[test]
+    fn what_is_no_better_with_the_steps_it_asks_for_does_not_last() {
+        let data = data();
+        let mut walk = walk(&rig(2.0), &data, &[]);
+        let with = with(&rig(2.0), Kind::CurrentBias, &[BIAS]);
+        let [right, wrong] = [&with, &rig(2.0)].map(|rig| walk.board.judged(rig, None).unwrap());
+        let (steps, shorter) = (walk.board.tolerance, 0.1 * walk.board.tolerance);
+        let board = walk.board.clone();
+        (walk.best, walk.board.tolerance) = (wrong.clone(), shorter);
+        assert!(!walk.lasts((board.clone(), right.clone())).unwrap());
+        assert_eq!((walk.best.rig.effects.len(), walk.board.tolerance), (1, steps));
+        (walk.best, walk.board.tolerance) = (right, shorter);
+        assert!(walk.lasts((board, wrong)).unwrap());
+        assert_eq!((walk.best.rig.effects.len(), walk.board.tolerance), (1, shorter));
+    }
 }
