@@ -196,7 +196,7 @@ impl Walk<'_> {
             // A refit of what was taken is not the next effect's to claim.
             self.best = settled(&mut self.board, self.best.clone(), options.seed)?;
             self.near_the_floor(GROSS)?;
-            if !self.lasts(before)? {
+            if !self.lasts(before) {
                 break;
             }
             self.reclaim()?;

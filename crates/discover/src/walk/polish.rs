@@ -123,16 +123,15 @@ impl<'a> Walk<'a> {
         if (DOWN..most).contains(&level) { self.polished() } else { Ok(()) }
     }
 
-    /// Whether the last model is better than the one `before` with the steps that it asks for; if not, all is as it was
-    /// `before`. What is near with long steps may be near with those only.
-    pub(super) fn lasts(&mut self, before: (Board<'a>, Fitted)) -> Result<bool, FitError> {
-        let there = self.board.again(&before.1)?;
+    /// Whether the last model is better than the one `before`, each with the steps that it asks for; if not, all is as
+    /// it was `before`. What is near with long steps may be near with those only.
+    pub(super) fn lasts(&mut self, before: (Board<'a>, Fitted)) -> bool {
         let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
-        let lasts = level(&self.best) < level(&there);
+        let lasts = level(&self.best) < level(&before.1);
         if !lasts {
             (self.board, self.best) = before;
         }
-        Ok(lasts)
+        lasts
     }
 
     /// The last model refitted until it falls by less than shows.
@@ -229,10 +228,10 @@ mod tests {
         let (steps, shorter) = (walk.board.tolerance, 0.1 * walk.board.tolerance);
         let board = walk.board.clone();
         (walk.best, walk.board.tolerance) = (wrong.clone(), shorter);
-        assert!(!walk.lasts((board.clone(), right.clone())).unwrap());
+        assert!(!walk.lasts((board.clone(), right.clone())));
         assert_eq!((walk.best.rig.effects.len(), walk.board.tolerance), (1, steps));
         (walk.best, walk.board.tolerance) = (right, shorter);
-        assert!(walk.lasts((board, wrong)).unwrap());
+        assert!(walk.lasts((board, wrong)));
         assert_eq!((walk.best.rig.effects.len(), walk.board.tolerance), (1, shorter));
     }
 }
