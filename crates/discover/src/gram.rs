@@ -288,7 +288,8 @@ fn gram(columns: &[DMatrix<f64>], residual: &DVector<f64>) -> DMatrix<f64> {
         first += part.ncols();
     }
     joined.set_column(all, residual);
-    joined.tr_mul(&joined)
+    // Faster than its `tr_mul`, which goes column by column.
+    joined.transpose() * joined
 }
 
 /// The derivatives of every block's residuals, those of the load cells last.

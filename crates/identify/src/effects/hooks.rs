@@ -43,62 +43,89 @@ impl<D: Real> At<'_, D> {
     }
 }
 
-/// What an effect adds to the friction F of the model.
+/// What an effect adds to the friction F of the model: most add one of these. With zeros in place of what is not there
+/// a motion took a quarter longer, and its derivatives half as long again.
 #[derive(Debug, Clone, Copy)]
 pub struct Act<D> {
     /// A force beside it [N], smooth in the velocity.
-    pub force: D,
+    pub force: Option<D>,
     /// F grows by this share of itself [1].
-    pub more: D,
+    pub more: Option<D>,
     /// F grows by this share of itself where it is positive, and falls where it is negative [1].
-    pub skew: D,
+    pub skew: Option<D>,
     /// The level at which the contact slips is higher by so much [N]: bristles slip at a larger deflection, what has
     /// none grows as a whole.
-    pub rise: D,
+    pub rise: Option<D>,
     /// A force against the motion that holds at rest [N].
-    pub dry: D,
+    pub dry: Option<D>,
+}
+
+/// Adds what may be there to what may be there.
+fn add<D: Real>(sum: &mut Option<D>, more: Option<D>) {
+    if let Some(more) = more {
+        *sum = Some(sum.map_or(more, |sum| sum + more));
+    }
 }
 
 impl<D: Real> Act<D> {
     /// None at all.
     pub fn none() -> Self {
-        let zero = D::from(0.0);
-        Self { force: zero, more: zero, skew: zero, rise: zero, dry: zero }
+        Self { force: None, more: None, skew: None, rise: None, dry: None }
     }
 
-    /// A force beside the friction.
+    /// A force beside the friction [N].
     pub fn force(force: D) -> Self {
-        Self { force, ..Self::none() }
+        Self { force: Some(force), ..Self::none() }
     }
 
-    /// Adds what another effect does.
-    pub(crate) fn add(&mut self, other: &Self) {
-        self.force += other.force;
-        self.more += other.more;
-        self.skew += other.skew;
-        self.rise += other.rise;
-        self.dry += other.dry;
+    /// A share by which the friction grows [1].
+    pub fn more(more: D) -> Self {
+        Self { more: Some(more), ..Self::none() }
+    }
+
+    /// A share by which the friction grows where it is positive, and falls where it is negative [1].
+    pub fn skew(skew: D) -> Self {
+        Self { skew: Some(skew), ..Self::none() }
     }
 
     /// By how much the level is higher [N].
     pub fn rise(rise: D) -> Self {
-        Self { rise, ..Self::none() }
+        Self { rise: Some(rise), ..Self::none() }
+    }
+
+    /// A force against the motion that holds at rest [N].
+    pub fn dry(dry: D) -> Self {
+        Self { dry: Some(dry), ..Self::none() }
+    }
+
+    /// Adds what another effect does.
+    pub(crate) fn add(&mut self, other: &Self) {
+        add(&mut self.force, other.force);
+        add(&mut self.more, other.more);
+        add(&mut self.skew, other.skew);
+        add(&mut self.rise, other.rise);
+        add(&mut self.dry, other.dry);
     }
 
     /// Where no bristle has taken the rise of the level, all of the friction of level `f_c` grows by it.
     pub(crate) fn risen(&mut self, f_c: impl Fn() -> D, bristles: bool) {
-        if bristles {
-            return;
-        }
+        let Some(rise) = self.rise.filter(|_| !bristles) else { return };
         let f_c = f_c();
         if f_c.re() > 0.0 {
-            self.more += self.rise / f_c;
+            add(&mut self.more, Some(rise / f_c));
         }
     }
 
-    /// A share by which the friction grows.
-    pub fn more(more: D) -> Self {
-        Self { more, ..Self::none() }
+    /// By what share of itself friction grows that goes the `way` [1]; none if it stays as it is.
+    pub(crate) fn share(&self, way: f64) -> Option<D> {
+        let mut share = self.more;
+        add(&mut share, self.skew.map(|skew| skew * way));
+        share
+    }
+
+    /// The friction `own` [N], which goes the `way`, with what it grows by.
+    pub(crate) fn grown(&self, own: D, way: f64) -> D {
+        self.share(way).map_or(own, |share| own + own * share)
     }
 }
 

@@ -94,14 +94,15 @@ impl Local {
         let (mut gradient, mut gauss) = (DVector::zeros(n), DMatrix::zeros(n, n));
         if loads_by.nrows() > 0 {
             gradient = loads_by.tr_mul(&DVector::from_vec(loads));
-            gauss = loads_by.tr_mul(&loads_by);
+            // Faster than `tr_mul`, which goes column by column.
+            gauss = loads_by.transpose() * &loads_by;
         }
         let slopes = problem.all_slopes(&point.x, &point.pieces);
         for (piece, slopes) in point.pieces.iter().zip(&slopes) {
             let worth = worth(mean(piece), c);
             let residuals = DVector::from_column_slice(&piece.residuals);
             gradient += worth * slopes.jacobian.tr_mul(&residuals);
-            gauss += worth * slopes.jacobian.tr_mul(&slopes.jacobian);
+            gauss += worth * (slopes.jacobian.transpose() * &slopes.jacobian);
         }
         Self { gradient, gauss, leads: slopes.into_iter().map(|slopes| slopes.lead).collect() }
     }

@@ -54,8 +54,14 @@ pub(super) fn forces<D: Real>(
         }
         let own = force(&model.contact, &z, (velocity(i), act.rise), direction);
         let sign = own.re().partial_cmp(&0.0).map_or(0.0, |order| f64::from(order as i8));
-        let grown = own + own * (act.more + act.skew * sign) + act.dry * direction;
-        see(i, grown + act.force + viscous(i));
+        let mut all = act.grown(own, sign);
+        if let Some(dry) = act.dry {
+            all += dry * direction;
+        }
+        if let Some(force) = act.force {
+            all += force;
+        }
+        see(i, all + viscous(i));
     }
 }
 
@@ -152,7 +158,7 @@ fn turned(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> Option<[(f
 /// The force [N] that a contact holds at rest in the state in which it shows the `force` at the velocity `v` [m/s].
 fn begun<D: Real>(contact: &Contact<D>, force: D, v: f64) -> D {
     let Contact::LuGre { f_c, f_s, v_s, sigma_0, sigma_1 } = contact else { return force };
-    let r = deflection([*f_c, *f_s, *sigma_0], v_s.recip() * v);
+    let r = deflection([*f_c, *f_s, *v_s], *sigma_0, (D::from(v), None));
     let shown = *sigma_0 - *sigma_1 / r * v.abs();
     // Where the damping of the bristles undoes their stiffness nothing is seen of them.
     if shown.re() < HALF * sigma_0.re() {
@@ -185,15 +191,14 @@ fn at<'a, D: Real>(
 }
 
 /// The states after the displacement has moved by `step` [m] at constant `speed` [m/s].
-fn slide<D: Real>(contact: &Contact<D>, z: &mut [D], step: f64, (speed, rise): (f64, D)) {
+fn slide<D: Real>(contact: &Contact<D>, z: &mut [D], step: f64, (speed, rise): (f64, Option<D>)) {
     if step == 0.0 {
         return;
     }
     match contact {
         Contact::None | Contact::Coulomb { .. } => {}
         Contact::LuGre { f_c, f_s, v_s, sigma_0, .. } => {
-            let s = v_s.recip() * speed;
-            let r = deflection([*f_c, *f_s, *sigma_0], s) + rise / *sigma_0;
+            let r = deflection([*f_c, *f_s, *v_s], *sigma_0, (D::from(speed), rise));
             let end = r * step.signum();
             z[0] = end + (z[0] - end) * (-r.recip() * step.abs()).exp();
         }
@@ -238,14 +243,13 @@ fn decayed<D: Real>(w: D, path: D, gamma: D) -> D {
 }
 
 /// The force [N] without the viscous part; `direction` is that of the last motion.
-fn force<D: Real>(contact: &Contact<D>, z: &[D], (v, rise): (f64, D), direction: f64) -> D {
+fn force<D: Real>(contact: &Contact<D>, z: &[D], (v, rise): (f64, Option<D>), direction: f64) -> D {
     match contact {
         Contact::None => D::from(0.0),
         Contact::Coulomb { f_c } => *f_c * direction,
         Contact::Dahl { .. } => z[0],
         Contact::LuGre { f_c, f_s, v_s, sigma_0, sigma_1 } => {
-            let s = v_s.recip() * v;
-            let r = deflection([*f_c, *f_s, *sigma_0], s) + rise / *sigma_0;
+            let r = deflection([*f_c, *f_s, *v_s], *sigma_0, (D::from(v), rise));
             *sigma_0 * z[0] + *sigma_1 * (-z[0] / r * v.abs() + v)
         }
         Contact::MaxwellSlip { k, .. } => {

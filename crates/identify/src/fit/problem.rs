@@ -265,9 +265,7 @@ impl Problem<'_> {
             _ => self.columns::<16>(x, window, piece, (first, &mut jacobian)),
         }
         if let Some(whitening) = &window.whitening {
-            for mut column in jacobian.column_iter_mut() {
-                whitening.apply(column.as_mut_slice());
-            }
+            whitening.apply_all(&mut jacobian);
         }
         let n = jacobian.nrows();
         for (i, spread) in window.spread.iter().enumerate().take(starts) {

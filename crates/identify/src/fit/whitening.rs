@@ -22,7 +22,7 @@ const LITTLE: f64 = 1e-4;
 impl Whitening {
     /// Of the columns B [1]; none if they do not show.
     pub fn of(columns: &DMatrix<f64>) -> Option<Self> {
-        let squares = columns.tr_mul(columns);
+        let squares = columns.transpose() * columns;
         if squares.iter().any(|value| !value.is_finite()) {
             return None;
         }
@@ -56,6 +56,16 @@ impl Whitening {
         }
         rows.gemv(1.0, &self.along, &parts, 1.0);
     }
+
+    /// The same of every column of `all`.
+    pub fn apply_all(&self, all: &mut DMatrix<f64>) {
+        let mut rows = all.rows_mut(0, self.rows());
+        let mut parts = self.along.transpose() * &rows;
+        for (mut part, by) in parts.row_iter_mut().zip(&self.by) {
+            part *= *by;
+        }
+        rows.gemm(1.0, &self.along, &parts, 1.0);
+    }
 }
 
 #[cfg(test)]
@@ -72,6 +82,9 @@ mod tests {
         for mut column in w.column_iter_mut() {
             whitening.apply(column.as_mut_slice());
         }
+        let mut all = DMatrix::identity(6, 6);
+        whitening.apply_all(&mut all);
+        assert!((all - &w).amax() < 1e-15);
         let covariance = DMatrix::identity(6, 6) + &b * b.transpose();
         let white = &w * covariance * w.transpose();
         assert!((white - DMatrix::identity(6, 6)).amax() < 1e-12);

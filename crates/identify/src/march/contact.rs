@@ -50,11 +50,20 @@ const FADED: f64 = 60.0;
 /// The deflection of a contact that has none in its model [m]: that of its asperities.
 const RIGID: f64 = 1e-5;
 
-/// The deflection r = (F_C + (F_S − F_C) exp(−s²))/σ₀ of LuGre's bristles in steady sliding [m] with `s` = v/v_S.
-pub(crate) fn deflection<D: Real>([f_c, f_s, sigma_0]: [D; 3], s: D) -> D {
-    let s_2 = s * s;
-    let more = if s_2.re() < FADED { (f_s - f_c) * (-s_2).exp() } else { D::from(0.0) };
-    (f_c + more) / sigma_0
+/// The force F_C + (F_S − F_C) exp(−(v/v_S)²) at which LuGre's bristles slip in steady sliding at the velocity `v` [m/s],
+/// higher by the `rise` where there is one [N].
+fn slips<D: Real>([f_c, f_s, v_s]: [D; 3], (v, rise): (D, Option<D>)) -> D {
+    let mut level = f_c;
+    if (v.re() / v_s.re()).powi(2) < FADED {
+        let s = v / v_s;
+        level += (f_s - f_c) * (-(s * s)).exp();
+    }
+    rise.map_or(level, |rise| level + rise)
+}
+
+/// The deflection of the bristles there [m].
+pub(crate) fn deflection<D: Real>(parameters: [D; 3], sigma_0: D, at: (D, Option<D>)) -> D {
+    slips(parameters, at) / sigma_0
 }
 
 impl<D: Real> Contact<D> {
@@ -90,7 +99,7 @@ impl<D: Real> Contact<D> {
     /// The friction force [N] of a stage with velocity `v` [m/s], without the jump of [`Self::dry`]; writes
     /// its states z, which solve z = `base` + `dt` ż(z, v), dt [s] being the stage's own share of the step. Bristles
     /// slip at a level that is higher by `rise` [N]; the others do not know of it.
-    pub(super) fn stage(&self, base: &[D], dt: f64, (v, rise): (D, D), z: &mut [D]) -> D {
+    pub(super) fn stage(&self, base: &[D], dt: f64, (v, rise): (D, Option<D>), z: &mut [D]) -> D {
         match self {
             Self::None | Self::Coulomb { .. } => D::from(0.0),
             Self::Dahl { f_c, sigma, gamma } => {
@@ -98,9 +107,10 @@ impl<D: Real> Contact<D> {
                 z[0]
             }
             Self::LuGre { f_c, f_s, v_s, sigma_0, sigma_1 } => {
-                let r = deflection([*f_c, *f_s, *sigma_0], v / *v_s) + rise / *sigma_0;
+                let level = slips([*f_c, *f_s, *v_s], (v, rise));
                 let path = v * dt;
-                z[0] = (base[0] + path) / (size(path) / r + 1.0);
+                // (z_b + p)/(1 + |p|/r) with r = level/σ₀, and one division in place of three.
+                z[0] = (base[0] + path) * level / (*sigma_0 * size(path) + level);
                 *sigma_0 * z[0] + *sigma_1 * (z[0] - base[0]) / dt
             }
             Self::MaxwellSlip { k, delta } => {
@@ -143,8 +153,8 @@ impl<D: Real> Contact<D> {
             Self::None | Self::Coulomb { .. } => Vec::new(),
             Self::Dahl { f_c, .. } => vec![toward(*f_c)],
             Self::LuGre { f_c, f_s, v_s, sigma_0, .. } => {
-                let s = v_s.recip() * v;
-                vec![toward(deflection([*f_c, *f_s, *sigma_0], s))]
+                let at = (D::from(v), None);
+                vec![toward(deflection([*f_c, *f_s, *v_s], *sigma_0, at))]
             }
             Self::MaxwellSlip { delta, .. } => delta.iter().map(|d| toward(*d)).collect(),
         }
@@ -168,9 +178,9 @@ impl<D: Real> Contact<D> {
     }
 
     /// The same with bristles that slip at a level that is higher by `rise` [N]; the others do not know of it.
-    pub(super) fn raised(&self, rise: D) -> Self {
+    pub(super) fn raised(&self, rise: Option<D>) -> Self {
         let mut raised = self.clone();
-        if let Self::LuGre { f_c, f_s, .. } = &mut raised {
+        if let (Self::LuGre { f_c, f_s, .. }, Some(rise)) = (&mut raised, rise) {
             *f_c += rise;
             *f_s += rise;
         }

@@ -64,11 +64,8 @@ pub fn observe(
             let toward = between(measured.v) - shown;
             probe.balance.constant = Dual::from(pull + strength * toward);
             let h = dt / STEPS as f64;
-            let stage = Stage {
-                t: measured.time[i] + share * dt,
-                dt: h,
-                u: Dual::from(ends[0] + share * (ends[1] - ends[0])),
-            };
+            let u = Dual::from(ends[0] + share * (ends[1] - ends[0]));
+            let stage = Stage::of(&probe, [measured.time[i] + share * dt, h], u);
             let base = Base {
                 q: Dual::from(between(measured.q) - v * h),
                 v: Dual::from(v),

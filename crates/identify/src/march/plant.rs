@@ -82,36 +82,39 @@ impl<D: Real> Model<D> {
         (q, v, way): (D, D, f64),
         z: &mut [D],
     ) -> D {
-        let driving = self.driving(stage.u);
         let n = self.contact.states();
-        let mut force = self.rest(driving, q, v);
+        let mut force = self.rest(stage.driving, q, v);
         let dry = self.contact.dry();
         if self.effects.is_empty() {
-            let slow = (v, D::from(0.0));
-            let friction = self.contact.stage(&base[..n], stage.dt, slow, &mut z[..n]);
+            let friction = self.contact.stage(&base[..n], stage.dt, (v, None), &mut z[..n]);
             if let (Some(f_c), true) = (dry, way != 0.0) {
                 force -= f_c * way;
             }
             return force - friction;
         }
-        let at = self.at(stage, driving, [q, v], &base[..n]);
+        let at = self.at(stage, [q, v], &base[..n]);
         let mut all = self.acts(&at, &base[n..], &mut z[n..]);
         let friction = self.contact.stage(&base[..n], stage.dt, (v, all.rise), &mut z[..n]);
         all.risen(|| self.contact.level(), self.contact.bristles());
         let sign = |x: f64| if x == 0.0 { 0.0 } else { x.signum() };
-        let grown = friction + friction * (all.more + all.skew * sign(friction.re()));
-        force -= grown + all.force;
+        force -= all.grown(friction, sign(friction.re()));
+        if let Some(more) = all.force {
+            force -= more;
+        }
         if way != 0.0 {
-            let f_c = dry.unwrap_or(D::from(0.0));
-            force -= (f_c + f_c * (all.more + all.skew * way) + all.dry) * way;
+            let mut held = dry.map_or(D::from(0.0), |f_c| all.grown(f_c, way));
+            if let Some(more) = all.dry {
+                held += more;
+            }
+            force -= held * way;
         }
         force
     }
 
     /// An instant, as the effects see it; the contact began the stage with the states `base`.
-    fn at<'a>(&'a self, stage: &Stage<D>, drive: D, [q, v]: [D; 2], base: &'a [D]) -> At<'a, D> {
+    fn at<'a>(&'a self, stage: &Stage<D>, [q, v]: [D; 2], base: &'a [D]) -> At<'a, D> {
         let (t, dt, radius) = (stage.t, stage.dt, self.radius);
-        let (balance, mass) = (&self.balance, self.mass());
+        let (balance, drive, mass) = (&self.balance, stage.driving, stage.mass);
         let contact = (&self.contact, base);
         At { t, dt, drive, q, v, radius, contact, balance, mass }
     }
@@ -138,8 +141,8 @@ impl<D: Real> Model<D> {
     pub(crate) fn motor(&self, u: D, [q, v]: [D; 2], how: (f64, D), z: &mut [D]) -> D {
         let Some(first) = self.joint() else { return q };
         (z[first], z[first + 1]) = (q, v);
-        let stage = Stage { t: 0.0, dt: 0.0, u };
-        let at = self.at(&stage, self.driving(u), [q, v], &z[..self.contact.states()]);
+        let stage = Stage::of(self, [0.0, 0.0], u);
+        let at = self.at(&stage, [q, v], &z[..self.contact.states()]);
         let joint = self.effects.iter().find_map(|e| e.kind.joint(&e.p, &at));
         joint.map_or(q, |joint| q + joint.ahead(&at, how))
     }
@@ -173,7 +176,7 @@ impl<D: Real> Model<D> {
         if self.effects.is_empty() {
             return z;
         }
-        let at = self.at(&Stage { t, dt: 0.0, u }, self.driving(u), [q, v], &z);
+        let at = self.at(&Stage::of(self, [t, 0.0], u), [q, v], &z);
         let (mut all, mut first, mut after) = (Act::none(), 0, others.to_vec());
         for e in &self.effects {
             let end = first + e.kind.states();
@@ -183,9 +186,9 @@ impl<D: Real> Model<D> {
             first = end;
         }
         all.risen(|| self.contact.level(), self.contact.bristles());
-        let left = force - all.force;
+        let left = all.force.map_or(force, |more| force - more);
         let way = if left.re() == 0.0 { 0.0 } else { left.re().signum() };
-        let share = all.more + all.skew * way + 1.0;
+        let share = all.share(way).map_or(D::from(1.0), |share| share + 1.0);
         // Friction that pushes holds nothing: then as if it were the nominal one.
         let left = if share.re() > 0.0 { left / share } else { left };
         self.contact.raised(all.rise).holding(left)
@@ -262,6 +265,15 @@ pub(super) struct Stage<D> {
     pub(super) t: f64,
     /// Its own share of the step, γh [s].
     pub(super) dt: f64,
-    /// The recorded input at its time.
-    pub(super) u: D,
+    /// What drives the plant [N].
+    pub(super) driving: D,
+    /// The mass that moves [kg].
+    pub(super) mass: D,
+}
+
+impl<D: Real> Stage<D> {
+    /// At the time `t` [s] with the share `dt` [s] of the step, where the recorded input is `u`.
+    pub(super) fn of(model: &Model<D>, [t, dt]: [f64; 2], u: D) -> Self {
+        Self { t, dt, driving: model.driving(u), mass: model.mass() }
+    }
 }

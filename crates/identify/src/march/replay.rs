@@ -104,7 +104,7 @@ impl<'a, const P: usize> Again<'a, P> {
                 }
             }
             let u = ends[0] + (ends[1] - ends[0]) * (step.from + C[s] * h / dt);
-            let stage = Stage { t: t + step.from * dt + C[s] * h, dt: gh, u };
+            let stage = Stage::of(self.model, [t + step.from * dt + C[s] * h, gh], u);
             let v = self.velocity(&stage, [step.v[s], step.way[s]]);
             (q_dot[s], v_dot[s]) = (v, (v - self.base.v) / gh);
             for (i, z) in self.z.iter().enumerate() {

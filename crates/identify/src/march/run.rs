@@ -300,7 +300,7 @@ impl<'a> Walker<'a> {
             }
             (self.base.q, self.base.v) = (Dual::from(base[0]), Dual::from(base[1]));
             let u = ends[0] + (ends[1] - ends[0]) * ((from + C[s] * h) / dt);
-            let stage = Stage { t: t + from + C[s] * h, dt: gh, u: Dual::from(u) };
+            let stage = Stage::of(&self.probe, [t + from + C[s] * h, gh], Dual::from(u));
             // As fast as it would be if it went on to gain speed as in the stage before. Where that leads near to rest a
             // bristle in its Stribeck zone could stick as well as slide: there it goes on from where it is.
             let on = base[1] + gh * if s == 0 { self.v_dot } else { v_dot[s - 1] };
@@ -345,7 +345,7 @@ impl<'a> Walker<'a> {
             let slope = (there.v - self.v) / h;
             if there.v.abs() <= TURNED * self.tolerance.v || long - short <= f64::EPSILON * long {
                 let u = ends[0] + (ends[1] - ends[0]) * ((from + h) / dt);
-                let stage = Stage { t: t + from + h, dt: 0.0, u };
+                let stage = Stage::of(self.model, [t + from + h, 0.0], u);
                 let [before, after] = [way, -way].map(|way| self.pull(&stage, there.q, way));
                 let sticks = before * way <= 0.0 && after * way >= 0.0;
                 there.step.turn = if sticks || before == 0.0 { 0.0 } else { after / before };

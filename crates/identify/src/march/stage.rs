@@ -23,7 +23,7 @@ pub(super) fn excess<D: Real>(
     z: &mut [D],
 ) -> D {
     let force = model.force(stage, &base.z, (base.q + v * stage.dt, v, way), z);
-    model.mass() * (v - base.v) - force * stage.dt
+    stage.mass * (v - base.v) - force * stage.dt
 }
 
 /// How the velocity of a stage is looked for.
