@@ -11,8 +11,9 @@ use serde::Serialize;
 use serde_json::Value;
 use std::fmt;
 use tolerance::{
-    Close, DRAWN, DRAWN_FITTED, Exact, Ignored, Row, TIGHT, TINY, Tolerance, Within, Words, case,
-    fit, misfit, order, parameter, searched, searched_parameter, study, told, value,
+    Close, DRAWN, DRAWN_FITTED, Exact, FITTED_SHARE, Ignored, Row, SEARCHED, TIGHT, TINY,
+    Tolerance, Within, Words, case, fit, misfit, order, parameter, searched, searched_parameter,
+    study, told, value,
 };
 
 /// One field that moved.
@@ -46,9 +47,13 @@ pub fn drift(committed: &Summary, found: &Summary) -> Vec<Drift> {
     compare("orders.csv", (&committed.orders, &found.orders), order, &mut moved);
     compare("measures.csv", (&committed.measures, &found.measures), value, &mut moved);
     let searching = !found.discoveries.is_empty();
-    let claim = if searching { told } else { value };
-    compare("claims.csv", (&committed.claims, &found.claims), claim, &mut moved);
-    compare("figures.csv", (&committed.figures, &found.figures), claim, &mut moved);
+    let share = match (searching, found.fits.is_empty()) {
+        (true, _) => SEARCHED,
+        (_, false) => FITTED_SHARE,
+        _ => 0.0,
+    };
+    compare("claims.csv", (&committed.claims, &found.claims), told(share), &mut moved);
+    compare("figures.csv", (&committed.figures, &found.figures), told(share), &mut moved);
     compare("panels.csv", (&committed.panels, &found.panels), |_, _| TIGHT, &mut moved);
     // The steps that an adaptive solver took are as irreproducible as its counts.
     let histories: Vec<&str> =
@@ -230,8 +235,8 @@ fn alike(was: &str, is: &str, share: f64) -> bool {
 mod tests {
     use super::drift;
     use record::{
-        AboutRow, CaseRow, ClaimRow, CurveRow, DiscoveryRow, MeasureRow, OrderRow, ParameterRow,
-        Summary,
+        AboutRow, CaseRow, ClaimRow, CurveRow, DiscoveryRow, FitRow, MeasureRow, OrderRow,
+        ParameterRow, Summary,
     };
 
     fn summary(row: CaseRow) -> Summary {
@@ -331,6 +336,23 @@ mod tests {
         assert_eq!(moved("It leaves 41.2 floors of 716, no less.", 1.0, 1700.0), 1);
         assert_eq!(moved("It leaves 41.2 floors of 716, no more.", 1.31, 1700.0), 1);
         assert_eq!(moved("It leaves 41.2 floors of 716, no more.", 1.0, 1000.0), 1);
+    }
+
+    #[test]
+    fn what_is_said_of_a_fit_may_differ_as_far_as_the_fit() {
+        let said = |why: &str, fits: Vec<FitRow>| Summary {
+            claims: vec![ClaimRow { why: why.to_owned(), ..ClaimRow::default() }],
+            fits,
+            ..Summary::default()
+        };
+        let moved = |why: &str, fits: &[FitRow]| {
+            drift(&said("The error is 3.075.", fits.to_vec()), &said(why, fits.to_vec())).len()
+        };
+        let fit = [FitRow::default()];
+        assert_eq!(moved("The error is 3.076.", &fit), 0);
+        assert_eq!(moved("The error is 3.2.", &fit), 1);
+        assert_eq!(moved("The distance is 3.075.", &fit), 1);
+        assert_eq!(moved("The error is 3.076.", &[]), 1);
     }
 
     #[test]

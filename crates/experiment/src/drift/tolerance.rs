@@ -26,7 +26,7 @@ pub(super) const WORK: Tolerance = Close { relative: 0.05, absolute: 20.0 };
 /// Closed forms.
 pub(super) const TIGHT: Tolerance = Close { relative: 1e-9, absolute: 1e-12 };
 /// What follows from a minimum that is found to a share of its standard errors.
-pub(super) const FITTED: Tolerance = Close { relative: 0.02, absolute: 1e-9 };
+pub(super) const FITTED: Tolerance = Close { relative: FITTED_SHARE, absolute: 1e-9 };
 /// What a search leaves.
 pub(super) const NEAR: Tolerance = Close { relative: 0.1, absolute: 1e-9 };
 /// What is drawn of a simulation with fitted parameters.
@@ -67,13 +67,18 @@ pub(super) fn searched_parameter(field: &str, row: &Row) -> Tolerance {
     }
 }
 
-/// A text that tells of a search: its words exactly, and its numbers as far as the search is.
-pub(super) fn told(field: &str, row: &Row) -> Tolerance {
-    match field {
-        "how" | "why" | "caption" => Words(0.5),
+/// A text that tells of what was found: its words exactly, and its numbers to a `share`, as far as what is told is.
+pub(super) fn told(share: f64) -> impl Fn(&str, &Row) -> Tolerance {
+    move |field, row| match field {
+        "how" | "why" | "caption" => Words(share),
         _ => value(field, row),
     }
 }
+
+/// The share to which what a search ends with is the same on another processor.
+pub(super) const SEARCHED: f64 = 0.5;
+/// The same of a fit.
+pub(super) const FITTED_SHARE: f64 = 0.02;
 
 fn standard_error(row: &Row) -> f64 {
     row.get("standard_error").and_then(Value::as_f64).unwrap_or(0.0)
