@@ -29,6 +29,10 @@ pub(super) const ALL: f64 = 0.9;
 /// It is no name either if the sum of squares on the judging blocks falls by less than so many squared standard errors.
 const LEAST: f64 = 60.0;
 
+/// Beside an effect that leaves the floor or little more, another lowers it by at least this share: a little is left by
+/// every formula that is not the drive's own.
+const BESIDE: f64 = 0.05;
+
 /// A rival leaves no more than so many times what the best one does.
 const NEAR: f64 = 1.5;
 
@@ -77,7 +81,10 @@ pub(super) fn found<'r>(
         (r.judged.against(&best.judged) < UNSURE || alike) && worse > CLOSE * gone
     };
     let alike: Vec<&Rated> = [best].into_iter().chain(plausible.filter(rival)).collect();
-    let no_worse = |r: &&&Rated| r.judged.against(&best.judged) < UNSURE;
+    // What needs more numbers than a simpler one must be worth a name beside it.
+    let no_worse = |r: &&&Rated| {
+        r.judged.against(&best.judged) < UNSURE || r.judged.gained(&best.judged) < LEAST
+    };
     let keys = |r: &&&Rated| r.candidate.kind.about().keys.len();
     let named = alike.iter().filter(no_worse).min_by_key(keys).unwrap_or(&best);
     let others = alike.iter().map(|r| r.name()).filter(|other| *other != named.name());
@@ -100,7 +107,9 @@ fn sure(now: &Judged, judged: &Judged, (gone, round): (f64, usize)) -> bool {
     } else {
         t >= SURE || (gone > MOST && t >= UNSURE) || (gone > ALL && rarely())
     };
-    sure && gone >= WORTH && now.gained(judged) >= LEAST
+    let shows =
+        round == 0 || now.level() > NOTHING || judged.level() < (1.0 - BESIDE) * now.level();
+    sure && shows && gone >= WORTH && now.gained(judged) >= LEAST
 }
 
 #[cfg(test)]
@@ -141,6 +150,16 @@ mod tests {
     }
 
     #[test]
+    fn what_a_formula_leaves_beside_an_effect_is_no_other_one() {
+        let now = judged(0.95, 0.01);
+        for (level, named) in [(0.92, false), (0.88, true)] {
+            let all = [rated(0, judged(level, 0.009))];
+            assert!(found(&now, &all, 0).is_some(), "{level} alone");
+            assert_eq!(found(&now, &all, 1).is_some(), named, "{level} beside an effect");
+        }
+    }
+
+    #[test]
     fn what_acts_in_a_few_blocks_is_found_and_one_that_went_astray_is_not() {
         // 1.5 floors in each of so many blocks, and the others as a right model leaves them.
         let with = |far: usize, most: f64| {
@@ -172,6 +191,22 @@ mod tests {
         let all = both(1.2);
         let (best, taken) = found(&now, &all, 0).unwrap();
         assert_eq!((best.kind, taken.set.len()), (LAWS[other], 2));
+    }
+
+    #[test]
+    fn what_needs_more_numbers_is_named_where_it_is_worth_it() {
+        let keys = |place: usize| LAWS[place].about().keys.len();
+        let (simple, other) = (
+            (0..LAWS.len()).min_by_key(|place| keys(*place)).unwrap(),
+            (0..LAWS.len()).max_by_key(|place| keys(*place)).unwrap(),
+        );
+        // Surely a little better in every block: 18 squared standard errors of 6000, and 120.
+        for (better, named) in [(0.003, simple), (0.02, other)] {
+            let all = [rated(other, judged(1.0 - better, 0.05)), rated(simple, judged(1.0, 0.05))];
+            assert!(all[1].judged.against(&all[0].judged) > super::UNSURE);
+            let (best, _) = found(&judged(30.0, 1.0), &all, 0).unwrap();
+            assert_eq!(best.kind, LAWS[named], "better by {better}");
+        }
     }
 
     #[test]
