@@ -37,6 +37,11 @@ const NAMED: f64 = 0.5;
 /// The same whatever a map says of the rest.
 const NEARLY: f64 = 0.8;
 
+/// An effect that leaves more than so many floors, and has not taken away this share of the excess, only resembles what
+/// is missing: right names that leave 1.6 floors leave a twelfth of the excess at most.
+const EXPLAINED: f64 = 0.85;
+const LEFT: f64 = 1.25;
+
 /// A hundred times above the noise of the sensors no model of a real drive comes down to it, and what takes away half
 /// of the excess is a part of what is missing.
 const NO_NOISE: f64 = 1e4;
@@ -280,20 +285,22 @@ fn verdict(
         let wrong = parameters.iter().any(|p| p.moved) && before > refit * 1.05;
         return if wrong { Verdict::Parameter } else { Verdict::NothingMissing };
     }
-    if !more(last, middles[2]) {
+    let explained = shrink(refit, last) > EXPLAINED;
+    let poorly = !explained && last.min(middles[2]) > LEFT;
+    if !poorly && !more(last, middles[2]) {
         return Verdict::Effect;
     }
     // What takes away a part of something else is not its name.
     let named = (refit / last).ln() / refit.ln();
     let first = effects.first().map_or(0.0, |effect| effect.shrink);
     let real = last > NO_NOISE && first > MOST;
-    let part = named > NEARLY || (named > NAMED && mapped < MOST);
+    let part = explained && (named > NEARLY || (named > NAMED && mapped < MOST));
     if part || real { Verdict::Partial } else { Verdict::NotInLibrary }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Verdict, lasting, surely, verdict};
+    use super::{Found, Verdict, lasting, surely, verdict};
     use nalgebra::DMatrix;
 
     #[test]
@@ -316,6 +323,32 @@ mod tests {
         };
         assert_eq!(of(2.5), Verdict::NotInLibrary);
         assert_eq!(of(1.75), Verdict::NothingMissing, "a refit that stopped early");
+    }
+
+    #[test]
+    fn what_a_name_leaves_of_a_small_excess_shows_that_it_only_resembles_it() {
+        let found = || Found {
+            name: "friction_drift",
+            set: vec!["friction_drift"],
+            values: Vec::new(),
+            shrink: 0.9,
+            t: 9.0,
+            separated_by: String::new(),
+        };
+        let of = |refit: f64, last: f64| {
+            let levels = [900.0, refit, last];
+            verdict(&[found()], &[], (levels, levels), (None, false))
+        };
+        // Two wrong names, of friction that goes at random and of one that depends on acceleration, and three right
+        // ones: of a play, a delay and a drag.
+        for (refit, last) in [(3.83, 1.88), (2.01, 1.35)] {
+            assert_eq!(of(refit, last), Verdict::NotInLibrary, "{last} of {refit}");
+        }
+        for (refit, last) in [(379.0, 1.65), (8.43, 1.62), (4.46, 1.04)] {
+            assert_eq!(of(refit, last), Verdict::Effect, "{last} of {refit}");
+        }
+        // Much is left of much more.
+        assert_eq!(of(9000.0, 5.0), Verdict::Partial);
     }
 
     #[test]
