@@ -69,10 +69,10 @@ fn beside(name: &str, s: f64, sizes: &Sizes) -> Option<HiddenEffect> {
             room: travel * sizes.from(0, 0.05, 0.3),
             frequency: 30.0,
         }),
-        "foreign_motor_constant" => E::ForeignMotorConstant(nature::ForeignMotorConstant {
-            ratio: s * sizes.sign,
-            u_0: sizes.peak,
-        }),
+        // What gives less is the library's saturation by another formula.
+        "foreign_motor_constant" => {
+            E::ForeignMotorConstant(nature::ForeignMotorConstant { ratio: s, u_0: sizes.peak })
+        }
         "foreign_tone" => E::ForeignTone(nature::ForeignTone {
             force: s * sizes.level,
             omega: sizes.from(0, 3.0, 40.0),
