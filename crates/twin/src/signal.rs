@@ -132,7 +132,10 @@ fn at(part: &Part, t: f64, inside: f64) -> (f64, f64) {
             n if n == times.len() => (values[n - 1], 0.0),
             n => {
                 let slope = (values[n] - values[n - 1]) / (times[n] - times[n - 1]);
-                (values[n - 1] + slope * (t - times[n - 1]), slope)
+                // From the nearer end, so that it ends where the next begins: dry friction would turn around for the
+                // last digit that a rest lies behind.
+                let nearer = if t - times[n - 1] < times[n] - t { n - 1 } else { n };
+                (values[nearer] + slope * (t - times[nearer]), slope)
             }
         },
         Part::RandomSteps { .. } => (0.0, 0.0), // drawn in `new`, and steps since
@@ -196,6 +199,16 @@ mod tests {
         for t in corners {
             let (before, after) = (signal.leg(t - 1e-6).at(t).0, signal.leg_from(t).at(t).0);
             assert!((before - after).abs() < 1e-12, "at {t} s: {before} and {after}");
+        }
+    }
+
+    #[test]
+    fn a_ramp_ends_where_the_rest_after_it_lies_to_the_last_digit() {
+        let times: Vec<f64> = (0..200).map(|k| 0.37 * f64::from(k) + 0.11).collect();
+        let values: Vec<f64> = (0..200_u32).map(|k| 0.022 * f64::from(k / 2).sin()).collect();
+        let part = Part::Ramps { times: times.clone(), values: values.clone() };
+        for (end, value) in times.iter().zip(&values).skip(1) {
+            assert_eq!(super::at(&part, *end, end - 1e-3).0, *value, "at {end} s");
         }
     }
 
