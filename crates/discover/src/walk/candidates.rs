@@ -61,11 +61,11 @@ const HOPELESS: f64 = 10.0;
 impl Walk<'_> {
     /// Where effects are looked for from: where the model is and, before it, where it was before its refit if that went
     /// far and may have gone astray.
-    pub(super) fn points(&self, round: usize) -> Vec<&Fitted> {
+    pub(super) fn points(&self) -> Vec<&Fitted> {
         let level = self.judged(&self.best.blocks).level();
         let lost =
             level > GROSS || (level > NOTHING && model::dragged(&self.best.rig, &self.origin.rig));
-        if round == 0 && lost { vec![&self.origin, &self.best] } else { vec![&self.best] }
+        if lost { vec![&self.origin, &self.best] } else { vec![&self.best] }
     }
 
     /// The effects worth a refit, each refitted as far as a glance goes: from where the model is and, where that is
@@ -77,7 +77,7 @@ impl Walk<'_> {
         (round, start): (usize, Option<&Gram>),
     ) -> Result<Vec<Candidate>, FitError> {
         let now = self.judged(&self.best.blocks);
-        let points = self.points(round);
+        let points = self.points();
         let far = points.len() > 1;
         let mut all: Vec<Candidate> = Vec::new();
         for (place, point) in points.iter().enumerate() {
@@ -304,6 +304,26 @@ impl Walk<'_> {
 mod tests {
     use crate::walk::made::{BIAS, context, data, rig, walk, with};
     use identify::effects::Kind;
+
+    #[test]
+    fn a_model_that_is_far_off_is_left_from_the_given_values_as_well() {
+        let data = data();
+        let mut walk = walk(&rig(2.0), &data, &[]);
+        walk.given.free = vec!["mass".to_owned()];
+        let found = with(&walk.given, Kind::CurrentBias, &[0.1]);
+        let mut dragged = found.clone();
+        identify::fit::binding::set(&mut dragged, "mass", 1.3);
+        walk.best = walk.board.judged(&dragged, None).unwrap();
+        walk.origin = walk.beside_given().unwrap();
+        let masses: Vec<Option<f64>> = walk.points().iter().map(|p| p.rig.value("mass")).collect();
+        assert_eq!(masses, [Some(2.0), Some(1.3)]);
+        assert_eq!(walk.origin.rig.value("current_bias.bias"), Some(0.1), "as it was found");
+        // What is near is left from where it is.
+        walk.best =
+            walk.board.judged(&with(&walk.given, Kind::CurrentBias, &[BIAS]), None).unwrap();
+        walk.origin = walk.beside_given().unwrap();
+        assert_eq!(walk.points().len(), 1);
+    }
 
     #[test]
     fn what_is_far_behind_is_left_where_one_explains_all() {

@@ -21,9 +21,9 @@ use crate::{
 use identify::{
     Rig,
     effects::Context,
-    fit::{Data, FitError, search::Patience},
+    fit::{Data, FitError, binding, search::Patience},
 };
-use named::{ALL, found};
+use named::{ALL, NOTHING, found};
 use polish::CLOSE_TO;
 
 /// The windows of a block in a first search.
@@ -181,6 +181,21 @@ impl Walk<'_> {
         self.judged(&blocks)
     }
 
+    /// The last model with the given values of what is no effect's, of which it may have been dragged away by what is
+    /// still missing; itself where it is near.
+    fn beside_given(&self) -> Result<Fitted, FitError> {
+        if self.judged(&self.best.blocks).level() < NOTHING {
+            return Ok(self.best.clone());
+        }
+        let mut rig = self.best.rig.clone();
+        for name in self.best.rig.free.iter().filter(|name| !name.contains('.')) {
+            if let Some(given) = self.given.value(name) {
+                binding::set(&mut rig, name, given);
+            }
+        }
+        self.board.judged(&rig, None)
+    }
+
     /// Effect after effect, for as long as there is one more.
     fn rounds(
         &mut self,
@@ -201,7 +216,7 @@ impl Walk<'_> {
             }
             self.reclaim()?;
             self.hold_strayed(options.seed)?;
-            self.origin = self.best.clone();
+            self.origin = self.beside_given()?;
             effects.push(found);
         }
         self.loosen_held();
@@ -224,7 +239,7 @@ impl Walk<'_> {
         let mut all = self.told_apart(&now, all, context)?;
         // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.
         if now.level() > ABOVE && !all.iter().any(|c| self.down(&now, c, context)) {
-            let joints = self.begun(self.points(round)[0], context);
+            let joints = self.begun(self.points()[0], context);
             all.extend(self.finely(joints)?);
             let beside = self.beside(&all, context);
             all.extend(self.finely(beside)?);
