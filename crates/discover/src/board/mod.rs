@@ -285,6 +285,14 @@ impl<'a> Board<'a> {
         self.judged(&fitted.rig, Some(&fitted.pieces))
     }
 
+    /// A fitted model with each window begun where it was or where one of the `others` does, whichever is nearer.
+    pub(crate) fn nearer(&self, fitted: &Fitted, others: &[Piece]) -> Result<Fitted, FitError> {
+        let there = self.judged(&fitted.rig, Some(others))?;
+        let pairs = fitted.pieces.iter().zip(&there.pieces);
+        let near = pairs.map(|(a, b)| if b.misfit() < a.misfit() { b } else { a });
+        self.judged(&fitted.rig, Some(&near.cloned().collect::<Vec<Piece>>()))
+    }
+
     /// Counts the noise of the input anew, on its way through this model.
     pub(crate) fn refloor(&mut self, fitted: &Fitted, seed: u64) -> Result<(), FitError> {
         if self.imposed() {

@@ -108,6 +108,7 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         strayed,
         before_held: None,
     };
+    walk.begun_anew()?;
     walk.near_the_floor(CLOSE_TO)?;
     let refit = walk.best.clone();
     let context = model::context(&walk.board, &refit);
@@ -210,6 +211,7 @@ impl Walk<'_> {
             let Some(found) = self.step(context, options, (round, first))? else { break };
             // A refit of what was taken is not the next effect's to claim.
             self.best = settled(&mut self.board, self.best.clone(), options.seed)?;
+            self.begun_anew()?;
             self.near_the_floor(GROSS)?;
             if !self.lasts(before) {
                 break;

@@ -1,7 +1,7 @@
 //! What is done to a model that is near already.
 
 use super::{
-    DOWN, GROSS, REFIT, Walk,
+    ABOVE, DOWN, GROSS, REFIT, Walk,
     named::{MOST, Rated, SURE},
 };
 use crate::{
@@ -116,6 +116,20 @@ impl<'a> Walk<'a> {
         Ok(refit.clone())
     }
 
+    /// The last model refitted with every window begun anew, if that is nearer: where a window begins is looked for
+    /// beside the parameters, and one that was begun far from the truth keeps them in a minimum of its own.
+    pub(super) fn begun_anew(&mut self) -> Result<(), FitError> {
+        if self.board.imposed() || self.judged(&self.best.blocks).level() < ABOVE {
+            return Ok(());
+        }
+        let anew = self.board.fit(&self.best.rig, None, &REFIT)?;
+        let anew = self.board.nearer(&anew, &self.best.pieces)?;
+        if self.board.trained(&anew) < self.board.trained(&self.best) {
+            self.best = anew;
+        }
+        Ok(())
+    }
+
     /// A model that leaves less than `most` is polished before more is looked for: what a search that stopped early
     /// leaves is no effect's.
     pub(super) fn near_the_floor(&mut self, most: f64) -> Result<(), FitError> {
@@ -217,6 +231,23 @@ mod tests {
             let end = levels.fold(f64::INFINITY, f64::min);
             assert!(end < 1.05, "{kind:?} ends at {end}");
         }
+    }
+
+    #[test]
+    fn what_is_far_off_is_begun_anew() {
+        let data = data();
+        let mut walk = walk(&rig(2.0), &data, &[]);
+        let mut off = with(&rig(2.0), Kind::CurrentBias, &[BIAS]);
+        off.free.push("mass".to_owned());
+        identify::fit::binding::set(&mut off, "mass", 2.3);
+        walk.best = walk.board.judged(&off, None).unwrap();
+        let level = |walk: &crate::walk::Walk<'_>| walk.judged(&walk.best.blocks).level();
+        assert!(level(&walk) > 2.0, "{}", level(&walk));
+        walk.begun_anew().unwrap();
+        assert!(level(&walk) < 1.05, "{}", level(&walk));
+        let mass = walk.best.rig.value("mass");
+        walk.begun_anew().unwrap();
+        assert_eq!(walk.best.rig.value("mass"), mass, "what is near stays as it is");
     }
 
     #[test]
