@@ -196,7 +196,9 @@ fn the_comparator_sees_what_it_should() {
     assert!(!same("rk4 1.234e-6 solved", "rk4 1.240e-6 solved"));
     assert!(!same("rk4 1.234e-6 solved", "rk4 1.234e-6 failed"));
     assert!(!same("rk4 1.234e-6", "rk4 1.234e-6 1"));
-    assert!(same("off by 1.234, or 1.235.", "off by 1.235, or 1.234.") && !same("1.234,", "1.234."));
+    assert!(
+        same("off by 1.234, or 1.235.", "off by 1.235, or 1.234.") && !same("1.234,", "1.234.")
+    );
     assert!(!same("a\nb", "a"));
     assert!(same("x <1e-13", "x 9.1e-13") && !same("x <1e-13", "x 1e-11"));
     assert!(WORK.same("n 1000", "n 1030") && !WORK.same("n 1000", "n 1100"));

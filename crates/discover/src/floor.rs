@@ -1,14 +1,9 @@
 //! What noise alone leaves: that of the sensors, and that of the recorded input on its way through the model.
 
-use crate::{
-    board::{Board, Fitted},
-    maps,
-};
+use crate::board::{Board, Fitted};
 use identify::{
     Rig,
-    fit::{
-        Data, FitError, data::Seen, models, problem::Piece, whitening::Whitening, window::Window,
-    },
+    fit::{Data, FitError, data::Seen, models, problem::Piece, whitening::Whitening},
     march::Feedback,
 };
 use rand::SeedableRng;
@@ -19,9 +14,6 @@ use std::sync::Arc;
 
 /// How many times the input is perturbed by its own noise.
 const TIMES: u64 = 4;
-
-/// The noise of the input is carried by hats over so many samples each: within fewer it hardly moves a mass.
-const HAT: usize = 15;
 
 /// How many samples to either side tell of one sample's spread.
 const AROUND: usize = 5;
@@ -65,46 +57,16 @@ pub(crate) fn spread(
 }
 
 /// What makes the residuals of every window independent of each other: on its way through the model the noise of the
-/// input, white as it is, moves many samples at once. It is carried by hats over time, of which each has the variance
-/// of the mean over its samples.
+/// input, white as it is, moves many samples at once.
 pub(crate) fn whitened(
     board: &Board<'_>,
     fitted: &Fitted,
 ) -> Result<Vec<Option<Arc<Whitening>>>, FitError> {
     let noise = noise_of_input(board.data, &fitted.rig);
-    if noise <= 0.0 {
-        return Ok(vec![None; board.windows.len()]);
-    }
     let held = fitted.held();
-    let gain = identify::fit::binding::model::<f64>(&held, &|_| None).balance.gain;
-    let one = |(window, piece): (&Window, &Piece)| {
-        let (rig, width) = with_hats(&held, board, window);
-        let problem = board.problem(&rig, |_| false)?;
-        let n = problem.free.len();
-        let own = Window { whitening: None, ..window.clone() };
-        let slopes = problem.slopes(&vec![0.0; n], &own, piece).jacobian;
-        let mut columns = slopes.rows(0, own.len() * problem.channels()).into_owned();
-        let deviation = gain.abs() * noise / (width / board.data.sample_time()).sqrt();
-        for (mut column, free) in columns.column_iter_mut().zip(&problem.free) {
-            column *= deviation / free.slope(0.0);
-        }
-        Ok(Whitening::of(&columns).map(Arc::new))
-    };
-    board.windows.par_iter().zip(&fitted.pieces).map(one).collect()
-}
-
-/// `rig` with a free force over each of the hats of a window, none of them there yet; and how far apart these are [s].
-fn with_hats(rig: &Rig, board: &Board<'_>, window: &Window) -> (Rig, f64) {
-    let time = &board.data.time[window.first..window.end];
-    let (first, last) = (time[0], time[time.len() - 1]);
-    let count = (time.len() / HAT).max(2);
-    let width = (last - first) / (count - 1) as f64;
-    let mut rig = rig.clone();
-    for i in 0..count {
-        let center = first + width * i as f64;
-        maps::add_hat(&mut rig, i, (0, center, width));
-    }
-    (rig, width)
+    let problem = board.problem(&held, |_| true)?;
+    let both = board.windows.par_iter().zip(&fitted.pieces);
+    Ok(both.map(|both| problem.whitening(&[], both, noise).map(Arc::new)).collect())
 }
 
 /// Standard deviation of the noise of the recorded input. A controller's command jumps with every step of its encoder,

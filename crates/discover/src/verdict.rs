@@ -1,6 +1,6 @@
 //! The answer.
 
-use identify::{Rig, effects::Kind};
+use identify::{Hold, Rig, effects::Kind};
 
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -177,6 +177,8 @@ pub struct Discovery {
     pub detectability: Vec<Limit>,
     /// Mean squared residual on the judging blocks, in units of the floor: before, refitted, after [1].
     pub chi_squared: [f64; 3],
+    /// What the input does between its samples, where the record tells it and not the rig file.
+    pub hold: Option<Hold>,
     /// The rig with the effects.
     pub rig: Rig,
 }

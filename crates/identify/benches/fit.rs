@@ -205,7 +205,7 @@ fn rig(friction: &Parameters) -> Rig {
         unit: None,
         quantum: None,
         at: Shaft::Drum,
-        hold: Hold::Linear,
+        hold: None,
     };
     Rig {
         title: "the rig of P6".to_owned(),

@@ -43,14 +43,14 @@ fn channel(kind: &'static Kind, quantity: &'static Quantity) -> impl Strategy<Va
         "\\PC{0,12}[\"'\\\\\n\t]?",
         proptest::option::of(proptest::sample::select(names)),
         proptest::option::of(number(true)),
-        any::<(bool, bool)>(),
+        any::<(bool, Option<bool>)>(),
     )
         .prop_map(move |(column, unit, quantum, (at, hold))| Channel {
             column: format!("{}{column}", quantity.name),
             unit,
             quantum,
             at: if at && motor { Shaft::Motor } else { Shaft::Drum },
-            hold: if hold { Hold::ZeroOrder } else { Hold::Linear },
+            hold: hold.map(|held| if held { Hold::ZeroOrder } else { Hold::Linear }),
         })
 }
 

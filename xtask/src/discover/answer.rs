@@ -3,6 +3,7 @@
 use super::{Run, Told, verdict};
 use crate::fit::FORMAT;
 use discover::{Found, Gap, Limit, MapOf, Moved, Ranked};
+use identify::Hold;
 use serde_json::{Map, Value, json};
 
 /// The 97.5 % quantile of the normal distribution.
@@ -27,6 +28,7 @@ pub(super) fn as_json(told: &Told) -> Value {
         },
         "parameters": found.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "effects": found.effects.iter().map(effect).collect::<Vec<_>>(),
+        "input_hold": found.hold.map(Hold::name),
         "chi_squared": { "before": before, "refit": refit, "after": after },
         "gap": found.gap.iter().map(gap).collect::<Vec<_>>(),
         "where": shares,

@@ -22,6 +22,7 @@ use identify::{
 use page::Pictures;
 use record::write_whole;
 use serde_json::{Value, json};
+pub(crate) use shown::between;
 use std::{path::Path, time::Instant};
 
 /// All that is told.
@@ -60,8 +61,8 @@ struct Run {
 pub(crate) fn discover(arguments: &DiscoverArgs) -> Result<Exit, Failure> {
     let started = Instant::now();
     let rig = read_rig(&arguments.rig)?;
-    let data = Data::of(&rig, &read_channels(&rig, &arguments.record)?);
-    let held = arguments.holdout.as_deref().map(|path| read_held(&rig, path)).transpose()?;
+    let mut data = Data::of(&rig, &read_channels(&rig, &arguments.record)?);
+    let mut held = arguments.holdout.as_deref().map(|path| read_held(&rig, path)).transpose()?;
     if let Some(out) = &arguments.out {
         // Better now than after the work.
         std::fs::create_dir_all(out).map_err(|e| {
@@ -76,6 +77,12 @@ pub(crate) fn discover(arguments: &DiscoverArgs) -> Result<Exit, Failure> {
     let check = check(&rig, &arguments.record)?;
     let options = Options { seed: arguments.seed, ..Options::default() };
     let found = discover::discover(&rig, &data, &options).map_err(of_file(&arguments.record))?;
+    // What the record tells of its input holds for all that is run from here on.
+    let hold = found.hold;
+    let rig = rig.saying(hold);
+    for data in [Some(&mut data), held.as_mut()].into_iter().flatten() {
+        data.hold = hold.unwrap_or(data.hold);
+    }
     let model = model(&rig, &found);
     // A model without a motion explains nothing, whatever the answer is.
     if let Err(FitError::NoMotion) = simulate(&model, &data, rigs_window(&rig)) {

@@ -4,7 +4,7 @@ use super::{Run, Told, answer::identified, verdict};
 use crate::fit::shown::sure;
 use discover::{Found, Gap, Limit, MapOf, Moved};
 use experiment::four_digits;
-use identify::{effects::Kind, rig};
+use identify::{Hold, effects::Kind, rig};
 
 /// The most parameters that are listed.
 const PARAMETERS: usize = 8;
@@ -22,6 +22,7 @@ pub(super) fn lines(told: &Told) -> Vec<String> {
         format!("{} ({}, {})", told.rig.title, told.rig.kind, told.rig.friction.name),
         check(told),
     ];
+    lines.extend(found.hold.map(|hold| block("input", between(hold))));
     let [before, refit, after] = found.chi_squared.map(four_digits);
     lines.push(block("before", &format!("χ² {before} with the model as given")));
     lines.push(block("refit", &format!("χ² {refit} with its own parameters fitted")));
@@ -41,6 +42,18 @@ pub(super) fn lines(told: &Told) -> Vec<String> {
     }
     lines.extend(limits(told));
     lines
+}
+
+/// What the record tells of its input.
+pub(crate) fn between(hold: Hold) -> &'static str {
+    match hold {
+        Hold::Linear => {
+            "goes straight from sample to sample, as the record tells; the rig file does not say"
+        }
+        Hold::ZeroOrder => {
+            "is held from sample to sample, as the record tells; the rig file does not say"
+        }
+    }
 }
 
 /// A line under the name of its step.

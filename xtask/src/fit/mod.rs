@@ -13,7 +13,8 @@ use crate::{
 use identify::{
     Recording, Rig,
     fit::{
-        Data, FitError, Misfit, Options, Simulated, Trace, fit as identified, simulate as simulated,
+        Data, FitError, Misfit, Options, Simulated, Trace, fit as identified, hold,
+        simulate as simulated,
     },
 };
 use record::{Sheet, write_sheet_csv, write_whole};
@@ -69,8 +70,10 @@ pub(crate) fn fit(arguments: &FitArgs) -> Result<Exit, Failure> {
         models: !arguments.quick,
         ..Options::default()
     };
-    let data = Data::of(&rig, &recording);
+    let mut data = Data::of(&rig, &recording);
     let threads = arguments.threads.map(usize::from);
+    let rig = identify::on_threads(threads, || heard(rig, &mut data));
+    let rig = rig.map_err(of_file(&arguments.record))?;
     let fitted = identify::on_threads(threads, || identified(&rig, &data, &options));
     let fitted = fitted.map_err(of_file(&arguments.record))?;
     let held = holdout.zip(arguments.holdout.as_deref()).map(|(recording, path)| {
@@ -98,11 +101,23 @@ pub(crate) fn fit(arguments: &FitArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
+/// The rig with what the record tells of its input between samples, where its file does not say.
+fn heard(rig: Rig, data: &mut Data) -> Result<Rig, FitError> {
+    let told = hold::told(&rig, data)?;
+    data.hold = told.unwrap_or(data.hold);
+    if let Some(hold) = told {
+        output::note(&format!("the input {}", crate::discover::between(hold)));
+    }
+    Ok(rig.saying(told))
+}
+
 /// Runs the model on the record's inputs, beside the record.
 pub(crate) fn simulate(arguments: &SimulateArgs) -> Result<Exit, Failure> {
     let rig = read_rig(&arguments.rig)?;
     let recording = read_channels(&rig, &arguments.record)?;
-    let run = simulated(&rig, &Data::of(&rig, &recording), arguments.window);
+    let mut data = Data::of(&rig, &recording);
+    let rig = heard(rig, &mut data).map_err(of_file(&arguments.record))?;
+    let run = simulated(&rig, &data, arguments.window);
     let run = run.map_err(of_file(&arguments.record))?;
     if let Some(out) = &arguments.out {
         traces(&out.join("simulated.csv"), &run.traces)?;

@@ -122,6 +122,7 @@ impl Walk<'_> {
             ranking: std::mem::take(&mut self.ranking),
             detectability,
             chi_squared: [first, nominal, last],
+            hold: None,
             rig: self.best.rig,
         })
     }

@@ -19,9 +19,9 @@ use crate::{
     verdict::{Discovery, Found, Options, Ranked},
 };
 use identify::{
-    Rig,
+    Hold, Rig,
     effects::Context,
-    fit::{Data, FitError, binding, search::Patience},
+    fit::{Data, FitError, binding, hold, search::Patience},
 };
 use named::{ALL, NOTHING, found};
 use polish::CLOSE_TO;
@@ -66,8 +66,26 @@ struct Walk<'a> {
     before_held: Option<strayed::Loosened>,
 }
 
-/// Looks for what the model `rig` of the record `data` lacks.
+/// Looks for what the model `rig` of the record `data` lacks. Where the rig file does not say what the input does between
+/// its samples the record does: beside the nominal model, and once more beside the last one.
 pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitError> {
+    let Some(told) = hold::told(rig, data)? else { return walked(rig, data, options) };
+    let with = |hold: Hold| -> Result<Discovery, FitError> {
+        let (rig, data) = (rig.clone().saying(Some(hold)), Data { hold, ..data.clone() });
+        Ok(Discovery { hold: Some(hold), ..walked(&rig, &data, options)? })
+    };
+    let found = with(told)?;
+    if found.effects.is_empty() {
+        return Ok(found);
+    }
+    let again = hold::told(&found.rig.clone().asking(), data)?.filter(|again| *again != told);
+    let Some(again) = again else { return Ok(found) };
+    let other = with(again)?;
+    Ok(if other.chi_squared[2] < found.chi_squared[2] { other } else { found })
+}
+
+/// Looks for what the model `rig` of the record `data` lacks.
+fn walked(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitError> {
     let still;
     let data = if data.force.is_some() {
         still = crate::rest::rested(data);

@@ -82,7 +82,8 @@ impl Data {
         let input = ["current", "force", "voltage", "displacement"].into_iter().find(|name| {
             recording.channels.contains_key(*name) && (imposed == (*name == "displacement"))
         });
-        let hold = input.and_then(|name| rig.channels.get(name)).map_or(Hold::Linear, |c| c.hold);
+        let said = input.and_then(|name| rig.channels.get(name)).and_then(|c| c.hold);
+        let hold = said.unwrap_or_default();
         let loads = match (seen("force_1"), seen("force_2")) {
             (Some(first), Some(second)) => Some([first, second]),
             _ => None,

@@ -13,6 +13,7 @@ pub mod descent;
 mod estimate;
 mod follow;
 mod gap;
+pub mod hold;
 mod imposed;
 pub use imposed::corners;
 mod interval;

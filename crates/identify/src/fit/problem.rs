@@ -220,6 +220,15 @@ impl Problem<'_> {
         self.spread.get(i).map_or(own, |more| own.hypot(more[0]))
     }
 
+    /// What the residuals of sample `i` are divided by: displacement, velocity where it is seen, input.
+    pub(super) fn weights_at(&self, i: usize) -> [f64; 3] {
+        let input = self.weights.input;
+        match &self.data.velocity {
+            Some(seen) => [self.first_weight(i), self.velocity_weight(&seen.values, i), input],
+            None => [self.first_weight(i), input, input],
+        }
+    }
+
     /// What a step may be wrong by, and how many a window may take.
     fn spans(&self, window: &Window, tolerance: f64) -> Tolerance {
         let q = self.data.displacement.as_ref().map_or(1.0, |d| d.span.max(d.noise));

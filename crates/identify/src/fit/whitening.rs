@@ -1,94 +1,196 @@
 //! Residuals that hang together, made independent.
 //!
-//! What a recorded input says wrong goes through the plant and is seen in many samples at once. With the residuals r
-//! in units of the sensors' noise and the columns of B what one standard deviation of each part of the input's noise
-//! moves them by, their covariance is I + B Bᵀ, and (I + B Bᵀ)^(-1/2) r is white. The symmetric root leaves what
-//! happens at a sample as near to it as may be.
+//! What a recorded input says wrong goes through the plant and is seen in many samples at once. Along a motion its
+//! deviations s go from sample to sample by s⁺ = A s + g w and are seen as y⁺ = C s + d w, with w the input's noise, white
+//! and as large for every sample; on each y lies the noise of a sensor. What of a residual was not to be foretold from
+//! those before it, in units of its own deviation, is white: the innovations of Kalman's filter (Anderson and Moore,
+//! Optimal Filtering, Prentice-Hall 1979, chapter 5).
 
-use nalgebra::{DMatrix, DVectorViewMut};
+use super::{
+    problem::{Piece, Problem},
+    window::Window,
+};
+use crate::march::{Passage, deviations, passages};
+use nalgebra::{DMatrix, DVector};
 
-/// The symmetric inverse root of a covariance I + B Bᵀ.
+/// From one sample to the next.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Whitening {
-    /// B V, where BᵀB = V diag(s²) Vᵀ: one column for each s² that counts.
-    along: DMatrix<f64>,
-    /// ((1 + s²)^(-1/2) − 1)/s² of each.
-    by: Vec<f64>,
+pub struct Passing {
+    /// What is foretold of the states from those before, A.
+    on: DMatrix<f64>,
+    /// What is foretold of the residuals, C, each in units of its sensor's noise.
+    seen: DMatrix<f64>,
+    /// The inverse of Cholesky's factor of the covariance of what is not foretold of them.
+    white: DMatrix<f64>,
+    /// What that says of the states: Kalman's gain.
+    gain: DMatrix<f64>,
 }
 
-/// Less than this share of the sensors' variance does not show.
-const LITTLE: f64 = 1e-4;
+/// The innovations of a window's residuals.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Whitening {
+    channels: usize,
+    states: usize,
+    passings: Vec<Passing>,
+}
 
 impl Whitening {
-    /// Of the columns B [1]; none if they do not show.
-    pub fn of(columns: &DMatrix<f64>) -> Option<Self> {
-        let squares = columns.transpose() * columns;
-        if squares.iter().any(|value| !value.is_finite()) {
-            return None;
+    /// Of what goes on from sample to sample: [A; C] and [g; d] of each, with C and d in units of the sensors' noise and
+    /// g and d for one standard deviation of the input's. The states at the first sample are known. None if not all
+    /// is finite.
+    pub fn of(
+        states: usize,
+        all: impl Iterator<Item = (DMatrix<f64>, DVector<f64>)>,
+    ) -> Option<Self> {
+        let mut covariance = DMatrix::zeros(states, states);
+        let mut passings = Vec::new();
+        let mut channels = 0;
+        for (by, noise) in all {
+            channels = by.nrows() - states;
+            let both = &by * &covariance * by.transpose() + &noise * noise.transpose();
+            let seen = both.view((states, states), (channels, channels))
+                + DMatrix::identity(channels, channels);
+            let across = both.view((0, states), (states, channels)).into_owned();
+            let factor = seen.clone().cholesky()?;
+            let gain = factor.solve(&across.transpose()).transpose();
+            covariance = both.view((0, 0), (states, states)) - &gain * across.transpose();
+            // Rounding must not make it lopsided.
+            covariance = 0.5 * (&covariance + covariance.transpose());
+            if !covariance.iter().all(|value| value.is_finite()) {
+                return None;
+            }
+            passings.push(Passing {
+                on: by.rows(0, states).into_owned(),
+                seen: by.rows(states, channels).into_owned(),
+                white: factor.l().try_inverse()?,
+                gain,
+            });
         }
-        let eigen = squares.symmetric_eigen();
-        let counts: Vec<usize> =
-            (0..columns.ncols()).filter(|i| eigen.eigenvalues[*i] > LITTLE).collect();
-        if counts.is_empty() {
-            return None;
-        }
-        let by = |i: &usize| {
-            let s = eigen.eigenvalues[*i];
-            ((1.0 + s).sqrt().recip() - 1.0) / s
-        };
-        Some(Self {
-            along: columns * eigen.eigenvectors.select_columns(&counts),
-            by: counts.iter().map(by).collect(),
-        })
+        Some(Self { channels, states, passings })
     }
 
     /// How many residuals it is for.
     pub(super) fn rows(&self) -> usize {
-        self.along.nrows()
+        self.channels * (self.passings.len() + 1)
     }
 
     /// Makes the first residuals of `rows` white, as many as it is for.
     pub fn apply(&self, rows: &mut [f64]) {
-        let mut rows = DVectorViewMut::from_slice(&mut rows[..self.rows()], self.rows());
-        let mut parts = self.along.tr_mul(&rows);
-        for (part, by) in parts.iter_mut().zip(&self.by) {
-            *part *= by;
+        let (n, channels) = (self.states, self.channels);
+        let (mut now, mut next) = (vec![0.0; n], vec![0.0; n]);
+        let mut fresh = vec![0.0; channels];
+        let samples = rows[..self.rows()].chunks_exact_mut(channels).skip(1);
+        for (rows, passing) in samples.zip(&self.passings) {
+            for (c, (fresh, row)) in fresh.iter_mut().zip(rows.iter()).enumerate() {
+                let foretold: f64 =
+                    now.iter().enumerate().map(|(j, s)| passing.seen[(c, j)] * s).sum();
+                *fresh = row - foretold;
+            }
+            for (i, next) in next.iter_mut().enumerate() {
+                let on: f64 = now.iter().enumerate().map(|(j, s)| passing.on[(i, j)] * s).sum();
+                let told: f64 =
+                    fresh.iter().enumerate().map(|(c, e)| passing.gain[(i, c)] * e).sum();
+                *next = on + told;
+            }
+            for (c, row) in rows.iter_mut().enumerate() {
+                *row = (0..=c).map(|k| passing.white[(c, k)] * fresh[k]).sum();
+            }
+            std::mem::swap(&mut now, &mut next);
         }
-        rows.gemv(1.0, &self.along, &parts, 1.0);
     }
 
     /// The same of every column of `all`.
     pub fn apply_all(&self, all: &mut DMatrix<f64>) {
-        let mut rows = all.rows_mut(0, self.rows());
-        let mut parts = self.along.transpose() * &rows;
-        for (mut part, by) in parts.row_iter_mut().zip(&self.by) {
-            part *= *by;
+        let rows = all.nrows();
+        for column in all.as_mut_slice().chunks_exact_mut(rows) {
+            self.apply(column);
         }
-        rows.gemm(1.0, &self.along, &parts, 1.0);
+    }
+}
+
+impl Problem<'_> {
+    /// What makes the residuals of a driven window independent, where the recorded input has this much `noise` [its
+    /// unit]; none where it has none, or the window no motion.
+    pub fn whitening(
+        &self,
+        x: &[f64],
+        (window, piece): (&Window, &Piece),
+        noise: f64,
+    ) -> Option<Whitening> {
+        let model = self.model(x);
+        match deviations(&model) + 2 {
+            0..=8 => self.whitened::<8>(x, (window, piece), noise),
+            9..=12 => self.whitened::<12>(x, (window, piece), noise),
+            13..=20 => self.whitened::<20>(x, (window, piece), noise),
+            _ => self.whitened::<40>(x, (window, piece), noise),
+        }
+    }
+
+    fn whitened<const P: usize>(
+        &self,
+        x: &[f64],
+        (window, piece): (&Window, &Piece),
+        noise: f64,
+    ) -> Option<Whitening> {
+        let model = self.model(x);
+        let n = deviations(&model);
+        if noise <= 0.0 || n + 2 > P || piece.motion.tape.samples() != window.len() {
+            return None;
+        }
+        let state = self.state(&model, window, piece.start);
+        let time = &self.data.time[window.first..window.end];
+        let channels = self.channels();
+        let mut all = Vec::with_capacity(window.len());
+        passages::<P>(
+            &model,
+            (&self.drive(window), time),
+            &piece.motion.tape,
+            &state,
+            &mut |passage: Passage<P>| {
+                let weights = self.weights_at(window.first + all.len() + 1);
+                let row = |i: usize| match i.checked_sub(n) {
+                    None => (&passage.states[i], 1.0),
+                    Some(c) => (&passage.seen[c], weights[c].recip()),
+                };
+                let by = DMatrix::from_fn(n + channels, n, |i, j| row(i).0[j] * row(i).1);
+                let noise = DVector::from_fn(n + channels, |i, _| noise * row(i).0[n] * row(i).1);
+                all.push((by, noise));
+            },
+        );
+        Whitening::of(n, all.into_iter())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::Whitening;
-    use nalgebra::DMatrix;
+    use nalgebra::{DMatrix, DVector};
 
     #[test]
     fn the_covariance_of_what_is_white_is_one() {
-        let b = DMatrix::from_fn(6, 2, |i, j| ((i + 2 * j) as f64).sin() * 3.0);
-        let whitening = Whitening::of(&b).unwrap();
-        // W (I + B Bᵀ) Wᵀ, W column by column.
-        let mut w = DMatrix::identity(6, 6);
-        for mut column in w.column_iter_mut() {
-            whitening.apply(column.as_mut_slice());
+        // Two states that are seen twice, over six samples, each passage another.
+        let entry = |k: usize, i: usize, j: usize| (1.0 + (3 * k + i + 2 * j) as f64).sin();
+        let by = |k: usize| DMatrix::from_fn(4, 2, |i, j| entry(k, i, j));
+        let noise = |k: usize| DVector::from_fn(4, |i, _| 2.0 * entry(k, i, 5));
+        let whitening = Whitening::of(2, (0..5).map(|k| (by(k), noise(k)))).unwrap();
+        assert_eq!(whitening.rows(), 12);
+        // What one deviation of each interval's noise does to all samples, followed by hand.
+        let mut b = DMatrix::zeros(12, 5);
+        for of in 0..5 {
+            let mut state = DVector::zeros(2);
+            for k in 0..5 {
+                let mut next = by(k) * &state;
+                if k == of {
+                    next += noise(k);
+                }
+                b.view_mut((2 * (k + 1), of), (2, 1)).copy_from(&next.rows(2, 2));
+                state = next.rows(0, 2).into_owned();
+            }
         }
-        let mut all = DMatrix::identity(6, 6);
-        whitening.apply_all(&mut all);
-        assert!((all - &w).amax() < 1e-15);
-        let covariance = DMatrix::identity(6, 6) + &b * b.transpose();
-        let white = &w * covariance * w.transpose();
-        assert!((white - DMatrix::identity(6, 6)).amax() < 1e-12);
-        assert!((&w - w.transpose()).amax() < 1e-12, "it is symmetric");
-        assert_eq!(Whitening::of(&DMatrix::zeros(6, 2)), None);
+        let mut w = DMatrix::identity(12, 12);
+        whitening.apply_all(&mut w);
+        let white = &w * (DMatrix::identity(12, 12) + &b * b.transpose()) * w.transpose();
+        assert!((&white - DMatrix::identity(12, 12)).amax() < 1e-12, "{white}");
+        assert!((b.norm() - 1.0).abs() > 1.0, "the noise is seen");
     }
 }

@@ -28,7 +28,7 @@ pub use drive::{Drive, Feedback};
 pub use dual::{Dual, Real};
 pub use observer::{Measured, observe};
 pub use plant::{Balance, Model};
-pub use replay::replay;
+pub use replay::{Passage, deviations, passages, replay};
 pub use run::{MotionError, Start, Tolerance, march};
 pub use tape::{Motion, Tape};
 

@@ -64,6 +64,76 @@ pub fn replay<const P: usize>(
     }
 }
 
+/// How the deviations of a motion go on from one sample to the next, a small one of the states s by A, one of the input's
+/// w by g: s⁺ = A s + g w; and what is seen of them there, y⁺ = C s + d w, y being what the sensors show of displacement
+/// and velocity. The states are displacement, velocity, those of contact and effects, and the sensors' memories.
+#[derive(Debug, Clone)]
+pub struct Passage<const P: usize> {
+    /// The new states, each with its derivatives by the old ones and, after them, by the input.
+    pub states: Vec<[f64; P]>,
+    /// The same of displacement and velocity as they are seen.
+    pub seen: [[f64; P]; 2],
+}
+
+/// How many states [`passages`] has of a model.
+pub fn deviations<D: Real>(model: &Model<D>) -> usize {
+    2 + model.states() + model.effects.len()
+}
+
+/// Goes over the steps of `tape` with derivatives from sample to sample alone. There have to be two places more than
+/// [`deviations`].
+pub fn passages<const P: usize>(
+    model: &Model<f64>,
+    (drive, time): (&Drive<'_>, &[f64]),
+    tape: &Tape,
+    start: &Start<f64>,
+    see: &mut dyn FnMut(Passage<P>),
+) {
+    let model = model.map(Dual::<P>::from);
+    let mut walker = Again::new(&model);
+    let zero = Dual::<P>::from(0.0);
+    let n = model.states();
+    let mut memory = vec![zero; model.effects.len()];
+    let mut state = Start {
+        q: Dual::from(start.q),
+        v: Dual::from(start.v),
+        z: start.z.iter().copied().map(Dual::from).collect(),
+    };
+    let place = |place: usize, number: &Dual<P>| Dual::variable(number.re, place);
+    let mut next = 0;
+    for i in 0..tape.until.len() {
+        (state.q, state.v) = (place(0, &state.q), place(1, &state.v));
+        for (k, z) in state.z.iter_mut().enumerate() {
+            *z = place(2 + k, z);
+        }
+        for (k, own) in memory.iter_mut().enumerate() {
+            *own = place(2 + n + k, own);
+        }
+        let before = [model.displacement(state.q, &state.z), state.v];
+        let delay = model.delay().map(|delay| (delay, time));
+        let noise = Dual::variable(0.0, 2 + n + memory.len());
+        let ends = inputs(drive, i, &[before[0]], delay).map(|end| end + noise);
+        let steps = &tape.steps[next..tape.until[i]];
+        let long: f64 = steps.iter().map(|s| s.h).sum();
+        for step in steps {
+            walker.step(&mut state, step, [long, time[i]], ends);
+        }
+        next = tape.until[i];
+        let shown = model.displacement(state.q, &state.z);
+        let dt = time[i + 1] - time[i];
+        let slope = (state.v - before[1]) / dt;
+        let rate = |i: usize| model.balance.gain.re() * rate(drive, time, i);
+        if i == 0 {
+            model.senses([before[0], before[1], zero, slope], [rate(0), 0.0], &mut memory);
+        }
+        let now = [shown, state.v, shown - before[0], slope];
+        let seen = model.senses(now, [rate(i + 1), dt], &mut memory);
+        let states = [state.q, state.v].into_iter().chain(state.z.iter().copied());
+        let states = states.chain(memory.iter().copied()).map(|s| s.eps).collect();
+        see(Passage { states, seen: seen.map(|y| y.eps) });
+    }
+}
+
 struct Again<'a, const P: usize> {
     model: &'a Model<Dual<P>>,
     base: Base<Dual<P>>,

@@ -3,7 +3,7 @@
 //! It is TOML: `title`, `[plant]` with a `kind` of [`KINDS`] and its keys, `[friction]` with a `name` of
 //! [`duhem::MODELS`] or `none` and its keys, `[fit] free`, `[channels]`, `[controller]` and `[[effect]]`.
 //! What the file leaves out: `offset` is 0, Dahl's `gamma` 1, every model's `sigma_2` 0, a controller's
-//! `hold` zero-order, a channel's `hold` linear, its unit SI. Exactly one of a plant's drives is a channel, and
+//! `hold` zero-order, a channel's unit SI, and its `hold` what the record tells, or else linear. Exactly one of a plant's drives is a channel, and
 //! an axis has a `gain` if and only if that is a voltage. A `[controller]` needs the channel `reference`. A
 //! minus before a unit turns the channel around. A `quantum` is in SI units on the side `at` which is measured.
 
@@ -68,8 +68,8 @@ pub struct Channel {
     pub quantum: Option<f64>,
     /// On which side of the gear it is measured.
     pub at: Shaft,
-    /// What an input does between its samples.
-    pub hold: Hold,
+    /// What an input does between its samples, where it is said.
+    pub hold: Option<Hold>,
 }
 
 /// The two sides of the gear.
@@ -90,6 +90,16 @@ pub enum Hold {
     Linear,
     /// It stays, and jumps at the next.
     ZeroOrder,
+}
+
+impl Hold {
+    /// As a rig file has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::ZeroOrder => "zero-order",
+        }
+    }
 }
 
 /// A controller that made the record.
@@ -119,6 +129,31 @@ pub struct Effect {
 }
 
 impl Rig {
+    /// The channel that drives the plant, if the rig file does not say what it does between its samples; an imposed
+    /// motion goes straight on, and a controller says it of its own command.
+    pub fn unsaid(&self) -> Option<&'static str> {
+        let driven = self.kind != "prescribed" && self.controller.is_none();
+        let kind = Kind::of(self.kind).filter(|_| driven)?;
+        let unsaid = |name: &&&str| self.channels.get(**name).is_some_and(|c| c.hold.is_none());
+        kind.drives.iter().find(unsaid).copied()
+    }
+
+    /// The same rig, not saying what its input does between its samples.
+    #[must_use]
+    pub fn asking(mut self) -> Self {
+        self.channels.values_mut().for_each(|channel| channel.hold = None);
+        self
+    }
+
+    /// The same rig, its input doing so between its samples where nothing else is said.
+    #[must_use]
+    pub fn saying(mut self, hold: Option<Hold>) -> Self {
+        if let Some(channel) = self.unsaid().and_then(|name| self.channels.get_mut(name)) {
+            channel.hold = hold;
+        }
+        self
+    }
+
     /// Whether motor and load are two masses in it.
     pub fn two_masses(&self) -> bool {
         let joins = |effect: &Effect| {

@@ -237,7 +237,7 @@ fn read_channels(table: &Table, kind: &Kind) -> Result<BTreeMap<String, Channel>
                 unit: None,
                 quantum: None,
                 at: Shaft::Drum,
-                hold: Hold::Linear,
+                hold: None,
             },
             None => channel(&item.table(table.text, quantity.name)?, quantity, kind)?,
         };
@@ -266,7 +266,7 @@ fn channel(table: &Table, quantity: &super::Quantity, kind: &Kind) -> Result<Cha
         unit: None,
         quantum: None,
         at: Shaft::Drum,
-        hold: hold(table)?.unwrap_or_default(),
+        hold: hold(table)?,
     };
     if let Some(item) = table.find("unit") {
         let unit = item.text("a unit")?;

@@ -1,6 +1,6 @@
 //! From a rig to the text of its file.
 
-use super::{Channel, Hold, Kind, Rig, Shaft};
+use super::{Channel, Kind, Rig, Shaft};
 use duhem::{MODELS, Parameter};
 use std::fmt::Write;
 
@@ -70,7 +70,7 @@ impl Rig {
         line(text, "kv", &format!("{:?}", controller.kv), "V·s/m");
         line(text, "limit", &format!("{:?}", controller.limit), "V");
         line(text, "sample_time", &format!("{:?}", controller.sample_time), "s");
-        line(text, "hold", &string(hold(controller.hold)), "");
+        line(text, "hold", &string(controller.hold.name()), "");
     }
 }
 
@@ -81,19 +81,10 @@ fn written(channel: &Channel) -> String {
     if channel.at == Shaft::Motor {
         parts.push("at = \"motor\"".to_owned());
     }
-    if channel.hold != Hold::default() {
-        parts.push(format!("hold = {}", string(hold(channel.hold))));
-    }
+    parts.extend(channel.hold.map(|between| format!("hold = {}", string(between.name()))));
     match parts.as_slice() {
         [_] => string(&channel.column),
         _ => format!("{{ {} }}", parts.join(", ")),
-    }
-}
-
-fn hold(hold: Hold) -> &'static str {
-    match hold {
-        Hold::Linear => "linear",
-        Hold::ZeroOrder => "zero-order",
     }
 }
 

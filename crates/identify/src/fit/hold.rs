@@ -1,0 +1,51 @@
+//! What the recorded input does between its samples, where the rig file does not say.
+//!
+//! An input that is held until the next sample comes half a sample later, in the mean, than one that goes straight to
+//! it, and that can be more than any effect of friction. It is told by the record: of two models that differ in
+//! nothing else the nearer one.
+
+use super::{Data, FitError, binding, blocks, descent::descend, problem::Problem, starts};
+use super::{search::Patience, window::Window};
+use crate::{Hold, Rig};
+
+/// Windows so long [s]: too short for what the model lacks to add up.
+const WINDOW: f64 = 0.4;
+
+/// So many of them at most, spread over the record.
+const MOST: usize = 60;
+
+/// Enough to see which of two models is nearer.
+const PATIENCE: Patience = Patience { misfit: 5.0, share: 1e-3, simulations: 10 };
+
+/// The steps' tolerance [1].
+const TOLERANCE: f64 = 1e-5;
+
+/// `rig` as it says what its input does between samples, or else as the record tells: what is free is fitted with
+/// either, from the values of `rig`. It is as it was where nothing is to be said.
+pub fn told(rig: &Rig, data: &Data) -> Result<Option<Hold>, FitError> {
+    if rig.unsaid().is_none() {
+        return Ok(None);
+    }
+    let [linear, held] = [Hold::Linear, Hold::ZeroOrder];
+    let both = rayon::join(|| misfit(rig, data, linear), || misfit(rig, data, held));
+    Ok(Some(if both.1? < both.0? { held } else { linear }))
+}
+
+/// What a model leaves of the windows, by their logarithms.
+fn misfit(rig: &Rig, data: &Data, hold: Hold) -> Result<f64, FitError> {
+    let data = Data { hold, ..data.clone() };
+    let all = blocks::blocks(&data, Some(WINDOW));
+    let stride = all.len().div_ceil(MOST);
+    let some = all.iter().step_by(stride);
+    let windows: Vec<Window> = some.map(|w| w.clone().remembering(&data)).collect();
+    let problem = Problem { windows, closed_loop: false, ..Problem::unfree(rig, &data)? };
+    let free = binding::free(rig, data.force(rig), data.speed().max(1e-9));
+    let problem = Problem { free, tolerance: problem.tolerance.max(TOLERANCE), ..problem };
+    let x = starts::nominal(&problem);
+    let pieces = if x.is_empty() {
+        super::models::converged(&problem, &x, None, PATIENCE.simulations)
+    } else {
+        descend(&problem, (&x, None), &PATIENCE).pieces
+    };
+    Ok(pieces.iter().map(|piece| piece.misfit().max(f64::MIN_POSITIVE).ln()).sum())
+}
