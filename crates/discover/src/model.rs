@@ -10,7 +10,7 @@ use identify::{
     effects::{Context, Key, Kind, Measure, Shape, Sign},
     fit::{FitError, problem::Problem, search::Patience},
 };
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Enough to see whether a candidate is worth more, and enough for one that is.
 const GLANCE: Patience = Patience { misfit: 2.0, share: 1e-3, simulations: 5 };
@@ -135,6 +135,9 @@ fn varies([s, c, k]: [f64; 3], [low, high]: [f64; 2], most: f64) -> bool {
 /// has 5e-4.
 const SLOWEST: f64 = 5e-4;
 
+/// A force that repeats along the way does so on the record's.
+const REPEATS: f64 = 0.75;
+
 /// Whether every value has a plausible sign and size, and no nominal parameter went to one that is absurd beside those
 /// of all `others`.
 pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig]) -> bool {
@@ -157,6 +160,10 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
                 varies([*sine, *cosine, *wavenumber], ends, key.most)
             }
             (Shape::Amount, ..) => value.abs() <= key.most * size,
+            // What does not repeat on the way is a constant force, or one that grows along it.
+            (_, Measure::Wavenumber, _) if kind == Kind::Cogging => {
+                value * context.span > REPEATS * TAU
+            }
             (_, Measure::Speed, _) => value.abs() >= SLOWEST * context.speed,
             _ => true,
         };
@@ -201,6 +208,7 @@ pub(crate) fn context(board: &Board<'_>, fitted: &Fitted) -> Context {
         sample_time: data.sample_time(),
         mass: model.balance.mass,
         turns: identify::rig::Kind::of(rig.kind).is_some_and(identify::rig::Kind::turns),
+        waves: [[0.0; 2]; 2],
     }
 }
 
@@ -230,6 +238,7 @@ mod tests {
         sample_time: 0.005,
         mass: 2.0,
         turns: false,
+        waves: [[0.0; 2]; 2],
     };
 
     /// Whether friction that grows by s sin kq + c cos kq is plausible on a record between -0.25 and 0.25 m.

@@ -74,6 +74,18 @@ pub fn residual(rig: &Rig, data: &Data, seed: u64) -> Option<Residual> {
     Some(Residual { time: data.time.clone(), floor: floor.collect(), q: seen.q, v: seen.v, force })
 }
 
+/// Displacement, velocity and residual force of every sample, without a floor; none as of [`residual`].
+pub(crate) fn left(rig: &Rig, data: &Data) -> Option<[Vec<f64>; 3]> {
+    let seen = Signals::of(data)?;
+    if data.force.is_some() {
+        let Residual { q, v, force, .. } = imposed(rig, data, seen)?;
+        return Some([q, v, force]);
+    }
+    let model = torque_alone(rig, data);
+    let force = seen.run(&model, data, strength(&model, data, &seen.v))?;
+    Some([seen.q, seen.v, force])
+}
+
 /// How many samples are near on either side.
 fn around(data: &Data) -> usize {
     let many = (LOCAL / data.sample_time()).clamp(1.0, 1e6);

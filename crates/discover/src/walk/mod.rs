@@ -4,7 +4,7 @@ mod answer;
 mod candidates;
 mod exchange;
 #[cfg(test)]
-mod made;
+pub(crate) mod made;
 mod named;
 mod places;
 mod polish;
@@ -16,7 +16,8 @@ use crate::{
     gram::Gram,
     model::{self, Candidate},
     screen::Scored,
-    verdict::{Discovery, Found, Options, Ranked},
+    verdict::{Discovery, Found, Options, Ranked, Verdict},
+    waves::waves,
 };
 use identify::{
     Hold, Rig,
@@ -75,7 +76,7 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         Ok(Discovery { hold: Some(hold), ..walked(&rig, &data, options)? })
     };
     let found = with(told)?;
-    if found.effects.is_empty() {
+    if matches!(found.verdict, Verdict::NothingMissing | Verdict::Parameter) {
         return Ok(found);
     }
     let again = hold::told(&found.rig.clone().asking(), data)?.filter(|again| *again != told);
@@ -129,7 +130,7 @@ fn walked(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitErr
     walk.begun_anew()?;
     walk.near_the_floor(CLOSE_TO)?;
     let refit = walk.best.clone();
-    let context = model::context(&walk.board, &refit);
+    let context = walk.waved(&model::context(&walk.board, &refit));
     // To say how little of each would show.
     let start = Gram::of(&walk.board, &refit, (&context, true))?;
     let mut effects = walk.rounds(&context, options, &start)?;
@@ -250,6 +251,7 @@ impl Walk<'_> {
         options: &Options,
         (round, start): (usize, Option<&Gram>),
     ) -> Result<Option<Found>, FitError> {
+        let context = &if start.is_some() { *context } else { self.waved(context) };
         let now = self.judged(&self.best.blocks);
         if now.level() > GROSS {
             self.board.refine(&self.best, ROUGH)?;
@@ -275,6 +277,11 @@ impl Walk<'_> {
         }
         self.best = best.fitted.clone();
         Ok(Some(found))
+    }
+
+    /// The sizes of the record with the waves that the last model leaves.
+    fn waved(&self, context: &Context) -> Context {
+        Context { waves: waves(&self.board, &self.best, context), ..*context }
     }
 
     /// Whether a candidate explains all that is missing.

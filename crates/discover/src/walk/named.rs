@@ -40,7 +40,7 @@ const NEAR: f64 = 1.5;
 const WORTH: f64 = 0.02;
 
 /// Mean squared residual, in units of the floor, up to which nothing may be missing.
-pub(super) const NOTHING: f64 = 1.4;
+pub(super) const NOTHING: f64 = 1.2;
 
 /// A candidate as it is judged.
 #[derive(Debug)]

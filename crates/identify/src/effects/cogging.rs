@@ -12,7 +12,7 @@ impl Law for Cogging {
         physics: "A torque that repeats with the angle, as of magnets and teeth.",
         channel: Channel::Torque,
         keys: &[Key::amount("sine", Measure::Force, 2.0), Key::amount("cosine", Measure::Force, 2.0), Key::fitted("wavenumber", Measure::Wavenumber)],
-        probes: |c| super::wavenumbers(c, 16),
+        probes: |c| super::wavenumbers(c, 2..=8, c.waves[0]),
         applies: |_| true,
         confused: &["gravity_unbalance", "cubic_spring", "position_friction"],
         separated_by: "a longer stretch, several of its periods",

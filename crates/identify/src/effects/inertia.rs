@@ -16,7 +16,7 @@ impl Law for Inertia {
         channel: Channel::Torque,
         keys: &[Key::amount("ratio", Measure::One, 4.0)],
         probes: About::no_shape,
-        applies: |rig| driven(rig) && !is_free(rig, "inertia") && !is_free(rig, "mass"),
+        applies: |rig| driven(rig) && !is_free(rig, if rig.kind == "mass-spring" { "mass" } else { "inertia" }),
         confused: &["input_delay"],
         separated_by: "faster drives",
         test: 0.1,

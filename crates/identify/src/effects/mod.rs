@@ -16,6 +16,7 @@ pub use hooks::{Act, At, Law, Load, Sense, Term};
 pub use joint::Joint;
 
 use crate::{Rig, march::Real};
+use std::ops::RangeInclusive;
 
 /// Declares the list: the kinds, and every hook passed on to the law that is meant.
 macro_rules! effects {
@@ -179,9 +180,12 @@ effects! {
     map::Map,
 }
 
-/// The wavenumbers of so many half periods over the record's stretch.
-fn wavenumbers(context: &Context, most: u32) -> Vec<Vec<f64>> {
-    (1..=most).map(|j| vec![f64::from(j) * std::f64::consts::PI / context.span]).collect()
+/// The wavenumbers of so many half periods over the record's stretch, and those that it shows most of.
+fn wavenumbers(context: &Context, halves: RangeInclusive<u32>, seen: [f64; 2]) -> Vec<Vec<f64>> {
+    let one = std::f64::consts::PI / context.span;
+    let most = one * f64::from(*halves.end());
+    let long = halves.map(|j| f64::from(j) * one);
+    long.chain(seen.into_iter().filter(|k| *k > most)).map(|k| vec![k]).collect()
 }
 
 impl Kind {

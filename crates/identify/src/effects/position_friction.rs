@@ -12,7 +12,7 @@ impl Law for PositionFriction {
         physics: "Friction differs from place to place.",
         channel: Channel::Torque,
         keys: &[Key::amount("sine", Measure::Amplitude, 0.9), Key::amount("cosine", Measure::Amplitude, 0.9), Key::fitted("wavenumber", Measure::Wavenumber)],
-        probes: |c| super::wavenumbers(c, 6),
+        probes: |c| super::wavenumbers(c, 1..=6, c.waves[1]),
         applies: rubs,
         confused: &["load_friction", "friction_drift"],
         separated_by: "the same stretch travelled under another load",

@@ -14,6 +14,12 @@ const WINDOW: f64 = 0.4;
 /// So many of them at most, spread over the record.
 const MOST: usize = 60;
 
+/// What comes late by a time of its own.
+const DELAY: &str = "input_delay";
+
+/// The constant force on the side of the friction.
+const OFFSET: &str = "offset";
+
 /// Enough to see which of two models is nearer.
 const PATIENCE: Patience = Patience { misfit: 5.0, share: 1e-3, simulations: 10 };
 
@@ -26,8 +32,16 @@ pub fn told(rig: &Rig, data: &Data) -> Result<Option<Hold>, FitError> {
     if rig.unsaid().is_none() {
         return Ok(None);
     }
+    // A delay, whatever it is in truth, is made up of the two; and a constant force that is missing is no question of
+    // time.
+    let mut rig = rig.clone();
+    rig.effects.retain(|effect| effect.name != DELAY);
+    rig.free.retain(|free| !free.starts_with(DELAY));
+    if !rig.free.iter().any(|free| free == OFFSET) {
+        rig.free.push(OFFSET.to_owned());
+    }
     let [linear, held] = [Hold::Linear, Hold::ZeroOrder];
-    let both = rayon::join(|| misfit(rig, data, linear), || misfit(rig, data, held));
+    let both = rayon::join(|| misfit(&rig, data, linear), || misfit(&rig, data, held));
     Ok(Some(if both.1? < both.0? { held } else { linear }))
 }
 
@@ -41,11 +55,6 @@ fn misfit(rig: &Rig, data: &Data, hold: Hold) -> Result<f64, FitError> {
     let problem = Problem { windows, closed_loop: false, ..Problem::unfree(rig, &data)? };
     let free = binding::free(rig, data.force(rig), data.speed().max(1e-9));
     let problem = Problem { free, tolerance: problem.tolerance.max(TOLERANCE), ..problem };
-    let x = starts::nominal(&problem);
-    let pieces = if x.is_empty() {
-        super::models::converged(&problem, &x, None, PATIENCE.simulations)
-    } else {
-        descend(&problem, (&x, None), &PATIENCE).pieces
-    };
+    let pieces = descend(&problem, (&starts::nominal(&problem), None), &PATIENCE).pieces;
     Ok(pieces.iter().map(|piece| piece.misfit().max(f64::MIN_POSITIVE).ln()).sum())
 }

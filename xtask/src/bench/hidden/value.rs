@@ -132,6 +132,7 @@ mod tests {
             separated_by: String::new(),
         };
         let answer = Discovery {
+            hold: None,
             verdict: discover::Verdict::Effect,
             parameters: vec![],
             effects: vec![found],
