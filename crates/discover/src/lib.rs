@@ -21,7 +21,7 @@ mod rest;
 mod screen;
 mod verdict;
 mod walk;
-mod waves;
+
 mod wrong;
 
 pub use confirm::{command_error, confirm};

@@ -135,6 +135,9 @@ fn varies([s, c, k]: [f64; 3], [low, high]: [f64; 2], most: f64) -> bool {
 /// has 5e-4.
 const SLOWEST: f64 = 5e-4;
 
+/// Of what does not begin smoothly so much less than is tried is none.
+const TOO_LITTLE: f64 = 0.1;
+
 /// A force that repeats along the way does so on the record's.
 const REPEATS: f64 = 0.75;
 
@@ -150,6 +153,8 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
     let own = about.keys.iter().all(|key| {
         let value = value(key);
         let size = context.size(key.measure).max(driven.size(key.measure));
+        let least = context.size(key.measure).min(driven.size(key.measure));
+        let least = kind.tried().first().map_or(0.0, |tried| TOO_LITTLE * tried * least);
         let sign = match key.sign {
             Sign::Any => true,
             Sign::Positive => value >= 0.0,
@@ -159,7 +164,7 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
             (_, Measure::Amplitude, [sine, cosine, wavenumber]) => {
                 varies([*sine, *cosine, *wavenumber], ends, key.most)
             }
-            (Shape::Amount, ..) => value.abs() <= key.most * size,
+            (Shape::Amount, ..) => (least..=key.most * size).contains(&value.abs()),
             // What does not repeat on the way is a constant force, or one that grows along it.
             (_, Measure::Wavenumber, _) if kind == Kind::Cogging => {
                 value * context.span > REPEATS * TAU

@@ -12,10 +12,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 /// The force that the rig's equation does not ask for [N].
-pub(crate) const BIAS: f64 = 0.3;
+pub(super) const BIAS: f64 = 0.3;
 
 /// A mass of `mass` [kg] on a spring of 3 N/m.
-pub(crate) fn rig(mass: f64) -> Rig {
+pub(super) fn rig(mass: f64) -> Rig {
     let text = format!(
         "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = {mass:?}\nstiffness = 3.0\n\
          [friction]\nname = \"none\"\nsigma_2 = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n"
@@ -24,7 +24,7 @@ pub(crate) fn rig(mass: f64) -> Rig {
 }
 
 /// x = sin 2t of 2 kg under the force that its equation asks for, but for the bias; noise of 1 mm.
-pub(crate) fn data() -> Data {
+pub(super) fn data() -> Data {
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
     let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
@@ -38,7 +38,7 @@ pub(crate) fn data() -> Data {
 }
 
 /// The walk on `data` with the model `rig`, in which all is as given.
-pub(crate) fn walk<'a>(rig: &Rig, data: &'a Data, loose: &[(String, f64)]) -> Walk<'a> {
+pub(super) fn walk<'a>(rig: &Rig, data: &'a Data, loose: &[(String, f64)]) -> Walk<'a> {
     let board = Board::of(rig, data, 1, loose.to_vec()).expect("a board");
     let short = Board::of(rig, data, super::SHORT, loose.to_vec()).expect("a board");
     let counts = board.samples();
@@ -58,7 +58,7 @@ pub(crate) fn walk<'a>(rig: &Rig, data: &'a Data, loose: &[(String, f64)]) -> Wa
 }
 
 /// The same with an effect.
-pub(crate) fn with(rig: &Rig, kind: Kind, values: &[f64]) -> Rig {
+pub(super) fn with(rig: &Rig, kind: Kind, values: &[f64]) -> Rig {
     let mut rig = rig.clone();
     crate::gram::with(&mut rig, kind, &[], 0);
     let about = kind.about();
@@ -70,6 +70,6 @@ pub(crate) fn with(rig: &Rig, kind: Kind, values: &[f64]) -> Rig {
 }
 
 /// The sizes of the record.
-pub(crate) fn context(walk: &Walk<'_>) -> Context {
+pub(super) fn context(walk: &Walk<'_>) -> Context {
     crate::model::context(&walk.board, &walk.best)
 }

@@ -4,11 +4,12 @@ mod answer;
 mod candidates;
 mod exchange;
 #[cfg(test)]
-pub(crate) mod made;
+mod made;
 mod named;
 mod places;
 mod polish;
 mod strayed;
+mod waves;
 
 use crate::{
     board::{self, Board, FINE, Fitted, ROUGH},
@@ -16,8 +17,7 @@ use crate::{
     gram::Gram,
     model::{self, Candidate},
     screen::Scored,
-    verdict::{Discovery, Found, Options, Ranked, Verdict},
-    waves::waves,
+    verdict::{Discovery, Found, Options, Ranked},
 };
 use identify::{
     Hold, Rig,
@@ -26,6 +26,7 @@ use identify::{
 };
 use named::{ALL, NOTHING, found};
 use polish::CLOSE_TO;
+use waves::waves;
 
 /// The windows of a block in a first search.
 const SHORT: usize = 4;
@@ -76,9 +77,6 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         Ok(Discovery { hold: Some(hold), ..walked(&rig, &data, options)? })
     };
     let found = with(told)?;
-    if matches!(found.verdict, Verdict::NothingMissing | Verdict::Parameter) {
-        return Ok(found);
-    }
     let again = hold::told(&found.rig.clone().asking(), data)?.filter(|again| *again != told);
     let Some(again) = again else { return Ok(found) };
     let other = with(again)?;

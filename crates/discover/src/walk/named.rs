@@ -228,7 +228,7 @@ mod tests {
             let blocks = (0..20).map(|k| if k == 0 { first } else { rest + 0.001 * f64::from(k) });
             Judged { blocks: blocks.collect(), counts: vec![300.0; 20] }
         };
-        let (now, then) = (with(50.0, 1.1), with(0.6, 1.0));
+        let (now, then) = (with(20.0, 0.98), with(0.6, 0.9));
         assert!(now.level() < super::NOTHING && now.against(&then) < super::CERTAIN);
         assert!(found(&now, &[rated(0, then)], 0).is_some());
         // In half of the blocks only it is chance.

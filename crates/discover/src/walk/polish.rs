@@ -207,13 +207,14 @@ mod tests {
         model::Candidate,
         walk::made::{BIAS, context, data, rig, walk, with},
     };
-    use identify::effects::Kind;
+    use identify::effects::{Context, Kind};
 
     #[test]
     fn those_that_contend_are_told_apart_where_they_end() {
         let data = data();
         let mut walk = walk(&rig(2.0), &data, &[]);
-        let context = context(&walk);
+        // On a way so long the wave below repeats.
+        let context = Context { span: 200.0, ..context(&walk) };
         let now = walk.judged(&walk.best.blocks);
         let near = |kind: Kind, values: &[f64]| {
             let fitted = walk.board.judged(&with(&rig(2.0), kind, values), None).unwrap();

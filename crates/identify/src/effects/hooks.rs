@@ -140,6 +140,8 @@ pub struct Sense<'a, D> {
     pub moved: D,
     /// How fast the velocity changes, as a line since the sample before; at the first, until the next [m/s²].
     pub slope: D,
+    /// How fast that changes, by the first three samples; 0 at all but the first [m/s³].
+    pub bend: D,
     /// How fast the drive changes [N/s].
     pub rate: f64,
     /// Time since the sample before [s]; 0 at the first.

@@ -23,9 +23,9 @@ impl Law for VelocityLag {
     };
 
     fn sense<D: Real>(p: &[D], sense: &mut Sense<'_, D>) {
-        // Exact where the velocity is a line from sample to sample, and was one for long before the first.
+        // Exact where the velocity is a line from sample to sample, and was a parabola for long before the first.
         let (tau, slope) = (p[0], sense.slope);
-        let follows = sense.v - slope * tau;
+        let follows = sense.v - (slope - sense.bend * tau) * tau;
         sense.v = if sense.dt == 0.0 || tau.re() * QUICK < sense.dt {
             follows
         } else {

@@ -12,7 +12,7 @@ use crate::{Hold, Rig};
 const WINDOW: f64 = 0.4;
 
 /// So many of them at most, spread over the record.
-const MOST: usize = 60;
+const MOST: usize = 40;
 
 /// What comes late by a time of its own.
 const DELAY: &str = "input_delay";
@@ -21,7 +21,7 @@ const DELAY: &str = "input_delay";
 const OFFSET: &str = "offset";
 
 /// Enough to see which of two models is nearer.
-const PATIENCE: Patience = Patience { misfit: 5.0, share: 1e-3, simulations: 10 };
+const PATIENCE: Patience = Patience { misfit: 1.0, share: 1e-5, simulations: 10 };
 
 /// The steps' tolerance [1].
 const TOLERANCE: f64 = 1e-5;

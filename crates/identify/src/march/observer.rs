@@ -56,7 +56,8 @@ pub fn observe(
         let moved = measured.q[i] - measured.q[i.saturating_sub(1)];
         let rate = model.balance.gain * rate(drive, measured.time, i);
         // What the sensor shows beside the velocity is no force.
-        let shown = model.senses([measured.q[i], v, moved, 0.0], [rate, dt], &mut memory)[1] - v;
+        let shown =
+            model.senses([measured.q[i], v, moved, 0.0, 0.0], [rate, dt], &mut memory)[1] - v;
         for step in 1..=STEPS {
             let share = step as f64 / STEPS as f64;
             let between = |values: &[f64]| values[i] + share * (values[i + 1] - values[i]);

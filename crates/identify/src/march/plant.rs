@@ -224,13 +224,13 @@ impl<D: Real> Model<D> {
     /// What the sensors show of the displacement and the velocity [m, m/s]; `memory` has a number for each effect.
     pub(super) fn senses(
         &self,
-        [q, v, moved, slope]: [D; 4],
+        [q, v, moved, slope, bend]: [D; 5],
         [rate, dt]: [f64; 2],
         memory: &mut [D],
     ) -> [D; 2] {
         let mut now = [q, v];
         for (e, memory) in self.effects.iter().zip(memory) {
-            let mut sense = Sense { q: now[0], v: now[1], moved, slope, rate, dt, memory };
+            let mut sense = Sense { q: now[0], v: now[1], moved, slope, bend, rate, dt, memory };
             e.kind.sense(&e.p, &mut sense);
             now = [sense.q, sense.v];
         }

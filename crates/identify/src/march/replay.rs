@@ -3,7 +3,7 @@
 use super::{
     Drive, Dual, Model, Real, Start, Tape,
     plant::Stage,
-    run::{inputs, rate},
+    run::{begun, inputs, rate},
     stage::{Base, excess},
     tableau::{A, C, GAMMA},
     tape::Step,
@@ -25,13 +25,20 @@ pub fn replay<const P: usize>(
     let mut seen = Vec::with_capacity(3);
     let mut walker = Again::new(model);
     let mut memory = vec![Dual::<P>::from(0.0); model.effects.len()];
-    let mut sensed = |i: usize, [q, v, moved, slope]: [Dual<P>; 4], u: Dual<P>| {
+    let mut sensed = |i: usize, now: [Dual<P>; 3], before: [Dual<P>; 3], (slope, bend)| {
         let dt = if i == 0 { 0.0 } else { time[i] - time[i - 1] };
         let rate = model.balance.gain.re() * rate(drive, time, i);
-        let [q, v] = model.senses([q, v, moved, slope], [rate, dt], &mut memory);
-        see(i, q, v, u);
+        let now_seen = [now[0], now[1], now[0] - before[0], slope, bend];
+        let [q, v] = model.senses(now_seen, [rate, dt], &mut memory);
+        see(i, q, v, now[2]);
     };
-    let mut before: Option<[Dual<P>; 3]> = None;
+    let zero = Dual::<P>::from(0.0);
+    let line = |i: usize, now: &[Dual<P>; 3], before: &[Dual<P>; 3]| {
+        ((now[1] - before[1]) / (time[i] - time[i - 1]), zero)
+    };
+    // How fast the velocity changes at first is told by those that follow.
+    let mut first: Vec<[Dual<P>; 3]> = Vec::with_capacity(3);
+    let mut before = [zero; 3];
     let mut next = 0;
     for i in 0..samples {
         if seen.len() == 3 {
@@ -40,19 +47,24 @@ pub fn replay<const P: usize>(
         let shown = model.displacement(state.q, &state.z);
         seen.push(shown);
         let ends = inputs(drive, i, &seen, model.delay().map(|delay| (delay, time)));
-        // How fast the first velocity changes is told by the second.
-        let slope = |v: Dual<P>| (state.v - v) / (time[i] - time[i - 1]);
-        let zero = Dual::<P>::from(0.0);
-        match before {
-            Some([q, v, u]) if i == 1 => {
-                sensed(0, [q, v, zero, slope(v)], u);
-                sensed(1, [shown, state.v, shown - q, slope(v)], ends[0]);
-            }
-            Some([q, v, _]) => sensed(i, [shown, state.v, shown - q, slope(v)], ends[0]),
-            None if samples == 1 => sensed(0, [shown, state.v, zero, zero], ends[0]),
-            None => {}
+        let now = [shown, state.v, ends[0]];
+        if i < 3 {
+            first.push(now);
         }
-        before = Some([shown, state.v, ends[0]]);
+        if i == 2 || i < 2 && i + 1 == samples {
+            let begins = match first.as_slice() {
+                [a, b, c] => begun([a[1], b[1], c[1]], time[1] - time[0]),
+                [a, b] => line(1, b, a),
+                _ => (zero, zero),
+            };
+            sensed(0, first[0], first[0], begins);
+            for (i, pair) in (1..).zip(first.windows(2)) {
+                sensed(i, pair[1], pair[0], line(i, &pair[1], &pair[0]));
+            }
+        } else if i > 2 {
+            sensed(i, now, before, line(i, &now, &before));
+        }
+        before = now;
         if i + 1 < samples {
             let steps = &tape.steps[next..tape.until[i]];
             let dt: f64 = steps.iter().map(|s| s.h).sum();
@@ -124,9 +136,9 @@ pub fn passages<const P: usize>(
         let slope = (state.v - before[1]) / dt;
         let rate = |i: usize| model.balance.gain.re() * rate(drive, time, i);
         if i == 0 {
-            model.senses([before[0], before[1], zero, slope], [rate(0), 0.0], &mut memory);
+            model.senses([before[0], before[1], zero, slope, zero], [rate(0), 0.0], &mut memory);
         }
-        let now = [shown, state.v, shown - before[0], slope];
+        let now = [shown, state.v, shown - before[0], slope, zero];
         let seen = model.senses(now, [rate(i + 1), dt], &mut memory);
         let states = [state.q, state.v].into_iter().chain(state.z.iter().copied());
         let states = states.chain(memory.iter().copied()).map(|s| s.eps).collect();

@@ -103,10 +103,21 @@ fn seen(model: &Model<f64>, drive: &Drive<'_>, time: &[f64], motion: &mut Motion
             (0, None) => 0.0,
             _ => (v - last) / dt,
         };
-        let now = [q, v, q - before, slope];
+        let (slope, bend) = match (i, motion.v.get(2)) {
+            (0, Some(third)) => begun([v, motion.v[1], *third], time[1] - time[0]),
+            _ => (slope, 0.0),
+        };
+        let now = [q, v, q - before, slope, bend];
         [motion.q[i], motion.v[i]] = model.senses(now, [rate, dt], &mut memory);
         (before, last) = (q, v);
     }
+}
+
+/// How fast a velocity changes at the first of three samples `dt` [s] apart, and how fast that does, by the parabola
+/// through them.
+pub(super) fn begun<D: super::Real>([first, second, third]: [D; 3], dt: f64) -> (D, D) {
+    let bend = (third - second * 2.0 + first) / (dt * dt);
+    ((second - first) / dt - bend * (0.5 * dt), bend)
 }
 
 /// How fast the input changes at sample `i`, over a few samples; 0 where the controller makes it.

@@ -26,7 +26,7 @@ const SLOW: f64 = 0.05;
 
 /// The wavenumbers [1/m] of the two waves that what a model leaves shows most of, for a force that repeats along the way
 /// and for a friction that does; 0 where there are none.
-pub(crate) fn waves(board: &Board<'_>, fitted: &Fitted, context: &Context) -> [[f64; 2]; 2] {
+pub(super) fn waves(board: &Board<'_>, fitted: &Fitted, context: &Context) -> [[f64; 2]; 2] {
     let Some([q, v, force]) = nudge::left(&fitted.held(), board.data) else { return [[0.0; 2]; 2] };
     let step = context.sample_time * context.speed;
     let many = (context.span / (SAMPLES * step)).clamp(1.0, MOST);
