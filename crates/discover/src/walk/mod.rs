@@ -26,6 +26,7 @@ use identify::{
 };
 use named::{ALL, NOTHING, found};
 use polish::CLOSE_TO;
+use std::cmp::Ordering;
 use waves::waves;
 
 /// The windows of a block in a first search.
@@ -49,6 +50,9 @@ const DOWN: f64 = 1.02;
 
 /// What does not begin smoothly is worth a look where the model leaves so much more than the floor.
 const ABOVE: f64 = 1.1;
+
+/// Of two answers the one with fewer effects leaves no more than so many times what the other does.
+const ALIKE: f64 = 1.1;
 
 /// The walk, as far as it has come.
 struct Walk<'a> {
@@ -80,7 +84,18 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
     let again = hold::told(&found.rig.clone().asking(), data)?.filter(|again| *again != told);
     let Some(again) = again else { return Ok(found) };
     let other = with(again)?;
-    Ok(if other.chi_squared[2] < found.chi_squared[2] { other } else { found })
+    Ok(if simpler(&other, &found) { other } else { found })
+}
+
+/// Whether an answer leaves less than another, or as much with fewer effects.
+fn simpler(one: &Discovery, other: &Discovery) -> bool {
+    let [own, its] = [one, other].map(|found| found.chi_squared[2]);
+    let [few, many] = [one, other].map(|found| found.rig.effects.len());
+    match few.cmp(&many) {
+        Ordering::Less => own < ALIKE * its,
+        Ordering::Equal => own < its,
+        Ordering::Greater => ALIKE * own < its,
+    }
 }
 
 /// Looks for what the model `rig` of the record `data` lacks.

@@ -4,9 +4,15 @@
 //! it, and that can be more than any effect of friction. It is told by the record: of two models that differ in
 //! nothing else the nearer one.
 
-use super::{Data, FitError, binding, blocks, descent::descend, problem::Problem, starts};
+use super::{
+    Data, FitError, binding, blocks,
+    descent::descend,
+    problem::{Piece, Problem},
+    starts,
+};
 use super::{search::Patience, window::Window};
-use crate::{Hold, Rig};
+use crate::{Hold, Rig, doctor::noise};
+use std::sync::Arc;
 
 /// Windows so long [s]: too short for what the model lacks to add up.
 const WINDOW: f64 = 0.4;
@@ -21,7 +27,7 @@ const DELAY: &str = "input_delay";
 const OFFSET: &str = "offset";
 
 /// Enough to see which of two models is nearer.
-const PATIENCE: Patience = Patience { misfit: 1.0, share: 1e-5, simulations: 10 };
+const PATIENCE: Patience = Patience { misfit: 1.0, share: 1e-5, simulations: 8 };
 
 /// The steps' tolerance [1].
 const TOLERANCE: f64 = 1e-5;
@@ -55,6 +61,15 @@ fn misfit(rig: &Rig, data: &Data, hold: Hold) -> Result<f64, FitError> {
     let problem = Problem { windows, closed_loop: false, ..Problem::unfree(rig, &data)? };
     let free = binding::free(rig, data.force(rig), data.speed().max(1e-9));
     let problem = Problem { free, tolerance: problem.tolerance.max(TOLERANCE), ..problem };
-    let pieces = descend(&problem, (&starts::nominal(&problem), None), &PATIENCE).pieces;
+    let near = descend(&problem, (&starts::nominal(&problem), None), &PATIENCE);
+    // What the noise of the input does would hide which of the two is nearer.
+    let noise = noise(&data.input);
+    let whitened = |(window, piece): (&Window, &Piece)| Window {
+        whitening: problem.whitening(&near.x, (window, piece), noise).map(Arc::new),
+        ..window.clone()
+    };
+    let windows = problem.windows.iter().zip(&near.pieces).map(whitened).collect();
+    let problem = Problem { windows, ..problem.clone() };
+    let pieces = descend(&problem, (&near.x, Some(&near.pieces)), &PATIENCE).pieces;
     Ok(pieces.iter().map(|piece| piece.misfit().max(f64::MIN_POSITIVE).ln()).sum())
 }
