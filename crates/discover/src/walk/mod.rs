@@ -54,6 +54,9 @@ const ABOVE: f64 = 1.1;
 /// Of two answers the one with fewer effects leaves no more than so many times what the other does.
 const ALIKE: f64 = 1.1;
 
+/// Dry friction and viscous friction.
+const PLAIN: usize = 2;
+
 /// The walk, as far as it has come.
 struct Walk<'a> {
     board: Board<'a>,
@@ -237,7 +240,10 @@ impl Walk<'_> {
         start: &Gram,
     ) -> Result<Vec<Found>, FitError> {
         let mut effects: Vec<Found> = Vec::new();
-        for round in 0..options.most {
+        // Where no friction is told of, its two plain parts are no effects beside others.
+        let bare = self.given.friction.name == "none" && self.given.friction.sigma_2 == 0.0;
+        let most = options.most + if bare { PLAIN } else { 0 };
+        for round in 0..most {
             let first = Some(start).filter(|_| round == 0);
             let before = (self.board.clone(), self.best.clone());
             let Some(found) = self.step(context, options, (round, first))? else { break };
