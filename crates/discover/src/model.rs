@@ -161,7 +161,7 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
             Sign::Negative => value <= 0.0,
         };
         let little = match (key.shape, key.measure, wave.as_slice()) {
-            (_, Measure::Amplitude, [sine, cosine, wavenumber]) => {
+            (_, Measure::Amplitude, [sine, cosine, wavenumber, ..]) => {
                 varies([*sine, *cosine, *wavenumber], ends, key.most)
             }
             (Shape::Amount, ..) => (least..=key.most * size).contains(&value.abs()),
@@ -213,6 +213,7 @@ pub(crate) fn context(board: &Board<'_>, fitted: &Fitted) -> Context {
         sample_time: data.sample_time(),
         mass: model.balance.mass,
         turns: identify::rig::Kind::of(rig.kind).is_some_and(identify::rig::Kind::turns),
+        loaded: model.balance.stiffness != 0.0 || model.balance.gravity != 0.0,
         waves: [[0.0; 2]; 2],
     }
 }
@@ -243,6 +244,7 @@ mod tests {
         sample_time: 0.005,
         mass: 2.0,
         turns: false,
+        loaded: true,
         waves: [[0.0; 2]; 2],
     };
 

@@ -160,6 +160,8 @@ pub struct Context {
     pub mass: f64,
     /// Whether the plant turns.
     pub turns: bool,
+    /// Whether springs or weight pull.
+    pub loaded: bool,
     /// The wavenumbers that the record shows most of, in a force and in friction; 0 for none [1/m].
     pub waves: [[f64; 2]; 2],
 }

@@ -1,6 +1,7 @@
 //! What several effects ask of a rig.
 
-use crate::Rig;
+use super::{Act, Context};
+use crate::{Rig, march::Real};
 
 /// Whether it moves under a drive.
 pub(super) fn driven(rig: &Rig) -> bool {
@@ -40,4 +41,20 @@ pub(super) fn value(rig: &Rig, key: &str) -> f64 {
 /// Whether a key of rig is free.
 pub(super) fn is_free(rig: &Rig, key: &str) -> bool {
     rig.free.iter().any(|name| name == key)
+}
+
+/// Friction that grows by a `share` of itself, in one of two forms: 1, as a contact that presses harder, whose stiffness
+/// grows as well; 2, by the level at which it slips alone.
+pub(super) fn grows<D: Real>(form: D, share: D) -> Act<D> {
+    if form.re() < 1.5 { Act::more(share) } else { Act::level(share) }
+}
+
+/// Every probe in each of the `forms`; without a deflection they are all one.
+pub(super) fn in_forms(c: &Context, probes: &[Vec<f64>], forms: &[f64]) -> Vec<Vec<f64>> {
+    let tell = |form: &&f64| c.memory > 0.0 || **form % 2.0 == 1.0;
+    let with = |form: &f64| {
+        let form = *form;
+        probes.iter().map(move |probe| probe.iter().copied().chain([form]).collect())
+    };
+    forms.iter().filter(tell).flat_map(with).collect()
 }

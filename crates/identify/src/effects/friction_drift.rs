@@ -1,6 +1,6 @@
 //! `friction_drift`: Friction changes with time, as when it warms up.
 
-use super::{About, Act, At, Channel, Key, Law, Measure, family::{rubs}};
+use super::{About, Act, At, Channel, Key, Law, Measure, family::{grows, in_forms, rubs}};
 use crate::march::Real;
 
 /// Friction changes with time, as when it warms up.
@@ -11,8 +11,11 @@ impl Law for FrictionDrift {
         name: "friction_drift",
         physics: "Friction changes with time, as when it warms up.",
         channel: Channel::Torque,
-        keys: &[Key::amount("amount", Measure::One, 0.9), Key::fitted("tau", Measure::Time)],
-        probes: |c| vec![vec![0.1 * c.duration], vec![0.4 * c.duration], vec![4.0 * c.duration]],
+        keys: &[Key::amount("amount", Measure::One, 0.9), Key::fitted("tau", Measure::Time), Key::probed("form", Measure::One)],
+        probes: |c| {
+            let taus = [0.1, 0.4, 4.0].map(|share| vec![share * c.duration]);
+            in_forms(c, &taus, &[1.0, 2.0])
+        },
         applies: rubs,
         confused: &["torque_saturation"],
         separated_by: "a longer record, or the same drive again",
@@ -20,6 +23,6 @@ impl Law for FrictionDrift {
     };
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        Act::more(p[0] * (-(-p[1].recip() * at.t).exp() + 1.0))
+        grows(p[2], p[0] * (-(-p[1].recip() * at.t).exp() + 1.0))
     }
 }

@@ -37,6 +37,12 @@ impl<D: Real> At<'_, D> {
         self.contact.0.grain()
     }
 
+    /// What springs and weight pull back with [N].
+    pub fn pull(&self) -> D {
+        let pull = self.balance.stiffness * self.q - self.balance.constant;
+        pull + self.balance.gravity * self.q.sin()
+    }
+
     /// What share of its level the contact held before the stage [1]: so much of the motion is slip.
     pub fn held(&self) -> D {
         self.contact.0.held(self.contact.1)
@@ -56,6 +62,8 @@ pub struct Act<D> {
     /// The level at which the contact slips is higher by so much [N]: bristles slip at a larger deflection, what has
     /// none grows as a whole.
     pub rise: Option<D>,
+    /// The level at which the contact slips grows by this share of itself, and its stiffness stays [1].
+    pub level: Option<D>,
     /// A force against the motion that holds at rest [N].
     pub dry: Option<D>,
 }
@@ -70,7 +78,7 @@ fn add<D: Real>(sum: &mut Option<D>, more: Option<D>) {
 impl<D: Real> Act<D> {
     /// None at all.
     pub fn none() -> Self {
-        Self { force: None, more: None, skew: None, rise: None, dry: None }
+        Self { force: None, more: None, skew: None, rise: None, level: None, dry: None }
     }
 
     /// A force beside the friction [N].
@@ -81,6 +89,11 @@ impl<D: Real> Act<D> {
     /// A share by which the friction grows [1].
     pub fn more(more: D) -> Self {
         Self { more: Some(more), ..Self::none() }
+    }
+
+    /// A share by which the level grows at which the contact slips [1].
+    pub fn level(level: D) -> Self {
+        Self { level: Some(level), ..Self::none() }
     }
 
     /// A share by which the friction grows where it is positive, and falls where it is negative [1].
@@ -104,6 +117,7 @@ impl<D: Real> Act<D> {
         add(&mut self.more, other.more);
         add(&mut self.skew, other.skew);
         add(&mut self.rise, other.rise);
+        add(&mut self.level, other.level);
         add(&mut self.dry, other.dry);
     }
 

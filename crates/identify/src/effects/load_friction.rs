@@ -1,6 +1,6 @@
 //! `load_friction`: Friction grows with the load that the drive carries.
 
-use super::{About, Act, At, Channel, Key, Law, Measure, family::{driven, rubs}};
+use super::{About, Act, At, Channel, Key, Law, Measure, family::{driven, grows, in_forms, rubs}};
 use crate::march::Real;
 
 /// Friction grows with the load that the drive carries.
@@ -11,8 +11,9 @@ impl Law for LoadFriction {
         name: "load_friction",
         physics: "Friction grows with the load that the drive carries.",
         channel: Channel::Torque,
-        keys: &[Key::positive("ratio", Measure::One, 2.0)],
-        probes: About::no_shape,
+        // Form 1 and 2: by what drives it; 3 and 4: by what springs and weight pull with.
+        keys: &[Key::positive("ratio", Measure::One, 2.0), Key::probed("form", Measure::One)],
+        probes: |c| in_forms(c, &[Vec::new()], if c.loaded { &[1.0, 2.0, 3.0, 4.0] } else { &[1.0, 2.0] }),
         applies: |rig| driven(rig) && rubs(rig),
         confused: &["position_friction", "quadratic_drag", "viscous"],
         separated_by: "the same motion under another load",
@@ -21,7 +22,9 @@ impl Law for LoadFriction {
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
         let f_c = if at.f_c().re() > 0.0 { at.f_c() } else { D::from(1.0) };
-        let load = if at.drive.re() < 0.0 { -at.drive } else { at.drive };
-        Act::more(p[0] * load / f_c)
+        let form = p[1].re();
+        let load = if form < 2.5 { at.drive } else { at.pull() };
+        let load = if load.re() < 0.0 { -load } else { load };
+        grows(D::from(if form < 2.5 { form } else { form - 2.0 }), p[0] * load / f_c)
     }
 }

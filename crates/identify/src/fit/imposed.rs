@@ -35,10 +35,22 @@ pub(super) fn forces<D: Real>(
         if !model.effects.is_empty() {
             act = model.acts(&now, &base, &mut aged);
         }
+        // The level of the middle of the way from the sample before.
+        let level = act.level.and_then(|_| {
+            let q = D::from(u[i] - 0.5 * step);
+            model.acts(&At { q, ..now }, &base, &mut base.clone()).level
+        });
+        let grown;
+        let contact = if level.is_some() {
+            grown = model.contact.raised(None, level);
+            &grown
+        } else {
+            &model.contact
+        };
         if i > 0 {
             let mut last = u[i - 1];
             for (next, speed) in way(time, (u, &corners), i) {
-                slide(&model.contact, &mut z, next - last, (speed, act.rise));
+                slide(contact, &mut z, next - last, (speed, act.rise));
                 last = next;
             }
             if velocity(i) != 0.0 {
@@ -52,7 +64,7 @@ pub(super) fn forces<D: Real>(
             act = Act { force: here.force, more: here.more, rise: here.rise, ..act };
             act.risen(|| model.contact.level(), model.contact.bristles());
         }
-        let own = force(&model.contact, &z, (velocity(i), act.rise), direction);
+        let own = force(contact, &z, (velocity(i), act.rise), direction);
         let sign = own.re().partial_cmp(&0.0).map_or(0.0, |order| f64::from(order as i8));
         let mut all = act.grown(own, sign);
         if let Some(dry) = act.dry {

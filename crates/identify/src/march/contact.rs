@@ -98,16 +98,24 @@ impl<D: Real> Contact<D> {
 
     /// The friction force [N] of a stage with velocity `v` [m/s], without the jump of [`Self::dry`]; writes
     /// its states z, which solve z = `base` + `dt` ż(z, v), dt [s] being the stage's own share of the step. Bristles
-    /// slip at a level that is higher by `rise` [N]; the others do not know of it.
-    pub(super) fn stage(&self, base: &[D], dt: f64, (v, rise): (D, Option<D>), z: &mut [D]) -> D {
+    /// slip at a level that is higher by `rise` [N]; the others do not know of it. All levels grow by a share where one
+    /// is given [1].
+    pub(super) fn stage(
+        &self,
+        base: &[D],
+        dt: f64,
+        (v, rise, share): (D, Option<D>, Option<D>),
+        z: &mut [D],
+    ) -> D {
+        let grown = |level: D| share.map_or(level, |share| level + level * share);
         match self {
             Self::None | Self::Coulomb { .. } => D::from(0.0),
             Self::Dahl { f_c, sigma, gamma } => {
-                z[0] = dahl([*f_c, *sigma, *gamma], base[0], v * dt);
+                z[0] = dahl([grown(*f_c), *sigma, *gamma], base[0], v * dt);
                 z[0]
             }
             Self::LuGre { f_c, f_s, v_s, sigma_0, sigma_1 } => {
-                let level = slips([*f_c, *f_s, *v_s], (v, rise));
+                let level = grown(slips([*f_c, *f_s, *v_s], (v, rise)));
                 let path = v * dt;
                 // (z_b + p)/(1 + |p|/r) with r = level/σ₀, and one division in place of three.
                 z[0] = (base[0] + path) * level / (*sigma_0 * size(path) + level);
@@ -116,7 +124,7 @@ impl<D: Real> Contact<D> {
             Self::MaxwellSlip { k, delta } => {
                 let mut force = D::from(0.0);
                 for (i, (k, delta)) in k.iter().zip(delta).enumerate() {
-                    z[i] = within(base[i] + v * dt, *delta);
+                    z[i] = within(base[i] + v * dt, grown(*delta));
                     force += *k * z[i];
                 }
                 force
@@ -177,9 +185,19 @@ impl<D: Real> Contact<D> {
         }
     }
 
-    /// The same with bristles that slip at a level that is higher by `rise` [N]; the others do not know of it.
-    pub(super) fn raised(&self, rise: Option<D>) -> Self {
+    /// The same with bristles that slip at a level that is higher by `rise` [N]; the others do not know of it. All
+    /// levels grow by the `share` where there is one [1].
+    pub(crate) fn raised(&self, rise: Option<D>, share: Option<D>) -> Self {
         let mut raised = self.clone();
+        if let Some(share) = share {
+            let grow = |level: &mut D| *level += *level * share;
+            match &mut raised {
+                Self::None => {}
+                Self::Coulomb { f_c } | Self::Dahl { f_c, .. } => grow(f_c),
+                Self::LuGre { f_c, f_s, .. } => [f_c, f_s].into_iter().for_each(grow),
+                Self::MaxwellSlip { delta, .. } => delta.iter_mut().for_each(grow),
+            }
+        }
         if let (Self::LuGre { f_c, f_s, .. }, Some(rise)) = (&mut raised, rise) {
             *f_c += rise;
             *f_s += rise;

@@ -86,7 +86,7 @@ impl<D: Real> Model<D> {
         let mut force = self.rest(stage.driving, q, v);
         let dry = self.contact.dry();
         if self.effects.is_empty() {
-            let friction = self.contact.stage(&base[..n], stage.dt, (v, None), &mut z[..n]);
+            let friction = self.contact.stage(&base[..n], stage.dt, (v, None, None), &mut z[..n]);
             if let (Some(f_c), true) = (dry, way != 0.0) {
                 force -= f_c * way;
             }
@@ -94,7 +94,8 @@ impl<D: Real> Model<D> {
         }
         let at = self.at(stage, [q, v], &base[..n]);
         let mut all = self.acts(&at, &base[n..], &mut z[n..]);
-        let friction = self.contact.stage(&base[..n], stage.dt, (v, all.rise), &mut z[..n]);
+        let how = (v, all.rise, all.level);
+        let friction = self.contact.stage(&base[..n], stage.dt, how, &mut z[..n]);
         all.risen(|| self.contact.level(), self.contact.bristles());
         let sign = |x: f64| if x == 0.0 { 0.0 } else { x.signum() };
         force -= all.grown(friction, sign(friction.re()));
@@ -102,7 +103,8 @@ impl<D: Real> Model<D> {
             force -= more;
         }
         if way != 0.0 {
-            let mut held = dry.map_or(D::from(0.0), |f_c| all.grown(f_c, way));
+            let level = |f_c: D| all.level.map_or(f_c, |share| f_c + f_c * share);
+            let mut held = dry.map_or(D::from(0.0), |f_c| all.grown(level(f_c), way));
             if let Some(more) = all.dry {
                 held += more;
             }
@@ -191,7 +193,7 @@ impl<D: Real> Model<D> {
         let share = all.share(way).map_or(D::from(1.0), |share| share + 1.0);
         // Friction that pushes holds nothing: then as if it were the nominal one.
         let left = if share.re() > 0.0 { left / share } else { left };
-        self.contact.raised(all.rise).holding(left)
+        self.contact.raised(all.rise, all.level).holding(left)
     }
 
     /// Whether friction can hold whatever the velocity does next.
