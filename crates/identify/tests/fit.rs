@@ -2,7 +2,7 @@
 
 use identify::{
     Hold, Rig,
-    fit::{Data, Fit, FitError, Options, Seen, Way, binding, fit, search::End, simulate},
+    fit::{Data, Fit, FitError, Options, Seen, Way, binding, fit, hold, search::End, simulate},
     march::{Drive, Start, Tolerance, march},
 };
 use rand::{RngExt, SeedableRng};
@@ -24,11 +24,16 @@ fn rig(friction: &str, free: &str) -> Rig {
 
 /// A record of `rig` under a force of this `amplitude` [N], with noise of its own.
 fn record(rig: &Rig, amplitude: f64, seed: u64) -> Data {
+    held(rig, Hold::Linear, (amplitude, seed))
+}
+
+/// The same, its input doing so between samples.
+fn held(rig: &Rig, hold: Hold, (amplitude, seed): (f64, u64)) -> Data {
     let time: Vec<f64> = (0..SAMPLES).map(|i| f64::from(i) / RATE).collect();
     let wave = |t: f64| (1.3 * t).sin() + 0.5 * (4.1 * t).sin();
     let input: Vec<f64> = time.iter().map(|t| amplitude * wave(*t)).collect();
     let model = binding::model::<f64>(rig, &|_| None);
-    let drive = Drive::Recorded { values: &input, first: 0, hold: Hold::Linear };
+    let drive = Drive::Recorded { values: &input, first: 0, hold };
     let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.contact.states()] };
     let fine = Tolerance { q: 1e-9, v: 1e-9, z: 1e-8, steps: 10_000_000 };
     let motion = march(&model, &drive, &time, &start, &fine).expect("a motion");
@@ -40,7 +45,7 @@ fn record(rig: &Rig, amplitude: f64, seed: u64) -> Data {
     };
     let position = Seen::new("position", noisy(&motion.q, NOISE[0]), 0.0);
     let velocity = Some(Seen::new("velocity", noisy(&motion.v, NOISE[1]), 0.0));
-    Data { velocity, ..Data::driven(time, input, Hold::Linear, position) }
+    Data { velocity, ..Data::driven(time, input, hold, position) }
 }
 
 fn quick() -> Options {
@@ -63,6 +68,21 @@ fn found_within(fit: &Fit, rig: &Rig, errors: f64) {
         let (found, error) = (p.found, p.standard_error);
         assert!(off < errors, "{}: {found} ± {error} for {truth}, {off:.1} errors off", p.name);
         assert!(error < 0.2 * truth.abs(), "{}: ± {error} says nothing of {truth}", p.name);
+    }
+}
+
+#[test]
+fn what_an_input_does_between_its_samples_is_told_by_the_record() {
+    let truth = rig("name = \"coulomb\"\nf_c = 2.0\nsigma_2 = 0.5", "\"f_c\", \"sigma_2\"");
+    let wrong = off_by(&truth, 1.2);
+    assert_eq!(wrong.unsaid(), Some("force"));
+    for hold in [Hold::Linear, Hold::ZeroOrder] {
+        // Whatever was thought of it before.
+        let data = Data { hold: Hold::Linear, ..held(&truth, hold, (20.0, 7)) };
+        assert_eq!(hold::told(&wrong, &data), Ok(Some(hold)), "{hold:?}");
+        let says = wrong.clone().saying(Some(hold));
+        assert_eq!((says.unsaid(), hold::told(&says, &data)), (None, Ok(None)), "as its file says");
+        assert_eq!(says.asking(), wrong);
     }
 }
 

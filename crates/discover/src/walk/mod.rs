@@ -26,7 +26,7 @@ use identify::{
 };
 use named::{ALL, NOTHING, found};
 use polish::CLOSE_TO;
-use std::cmp::Ordering;
+use std::{cmp::Ordering, ops::RangeInclusive};
 use waves::waves;
 
 /// The windows of a block in a first search.
@@ -57,6 +57,9 @@ const ALIKE: f64 = 1.1;
 /// Dry friction and viscous friction.
 const PLAIN: usize = 2;
 
+/// So late an input may be held, and not late [sampling times].
+const HALF: RangeInclusive<f64> = 0.3..=0.7;
+
 /// The walk, as far as it has come.
 struct Walk<'a> {
     board: Board<'a>,
@@ -84,7 +87,13 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         Ok(Discovery { hold: Some(hold), ..walked(&rig, &data, options)? })
     };
     let found = with(told)?;
-    let again = hold::told(&found.rig.clone().asking(), data)?.filter(|again| *again != told);
+    let delay = found.rig.value("input_delay.delay").unwrap_or(0.0) / data.sample_time();
+    // Half a sample late is what an input is that is held.
+    let again = if told == Hold::Linear && HALF.contains(&delay) {
+        Some(Hold::ZeroOrder)
+    } else {
+        hold::told(&found.rig.clone().asking(), data)?.filter(|again| *again != told)
+    };
     let Some(again) = again else { return Ok(found) };
     let other = with(again)?;
     Ok(if simpler(&other, &found) { other } else { found })
@@ -321,5 +330,42 @@ impl Walk<'_> {
             self.board.refine(&best.fitted, FINE)?;
         }
         Ok(self.followed(candidates))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Discovery, simpler};
+    use crate::{Verdict, walk::made};
+
+    /// An answer with so many effects that leaves so much.
+    fn answer(effects: usize, left: f64) -> Discovery {
+        let mut rig = made::rig(2.0);
+        let bias = made::with(&rig, identify::effects::Kind::CurrentBias, &[made::BIAS]);
+        rig.effects = vec![bias.effects[0].clone(); effects];
+        Discovery {
+            verdict: Verdict::Effect,
+            parameters: Vec::new(),
+            effects: Vec::new(),
+            gap: Vec::new(),
+            shares: Vec::new(),
+            map: None,
+            ranking: Vec::new(),
+            detectability: Vec::new(),
+            chi_squared: [9.0, 9.0, left],
+            hold: None,
+            rig,
+        }
+    }
+
+    #[test]
+    fn of_two_ways_between_samples_the_one_that_asks_for_fewer_effects_is_right() {
+        assert!(simpler(&answer(1, 1.0), &answer(2, 0.95)));
+        assert!(!simpler(&answer(1, 1.2), &answer(2, 0.95)), "but not where more is left");
+        assert!(simpler(&answer(1, 0.9), &answer(1, 0.95)));
+        assert!(
+            !simpler(&answer(2, 0.92), &answer(1, 1.0))
+                && simpler(&answer(2, 0.8), &answer(1, 1.0))
+        );
     }
 }

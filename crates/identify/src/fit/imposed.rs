@@ -305,6 +305,26 @@ mod tests {
     }
 
     #[test]
+    fn friction_that_falls_by_its_level_alone_keeps_its_stiffness() {
+        // Half of 2 N from the first instant on, over 1 mm at 0.1 m/s: F = L (1 − exp(−σu/L)), whole or by its level.
+        let sigma = 1e4;
+        for (form, stiffness, level) in [(1, 0.5 * sigma, 1.0), (2, sigma, 1.0)] {
+            let text = "name = \"dahl\"\nf_c = 2.0\nsigma = 1e4\ngamma = 1.0\n[[effect]]\nname = \"friction_drift\"\n\
+                amount = -0.5\ntau = 1e-9";
+            let model = model(&format!("{text}\nform = {form}.0"));
+            let time: Vec<f64> = (0..41).map(|i| 2.5e-4 * f64::from(i)).collect();
+            let u: Vec<f64> = time.iter().map(|t| 0.1 * t).collect();
+            let mut seen = Vec::new();
+            forces(&model, &time, &u, 0.0, &mut |_, f| seen.push(f));
+            for (u, f) in u.iter().zip(seen).skip(1) {
+                let truth = level * (1.0 - (-stiffness * u / level).exp());
+                assert!((f - truth).abs() < 1e-9, "form {form}: {f} N of {truth} N at {u} m");
+            }
+            assert!(form == 2 || self::model(text) == model, "the first form if none is said");
+        }
+    }
+
+    #[test]
     fn a_bristle_begins_where_its_first_force_has_it() {
         // From rest, relaxed, at once with 0.1 m/s: the first force is the damping's alone, σ₁v.
         let model = model(
