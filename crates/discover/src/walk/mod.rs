@@ -110,7 +110,7 @@ fn simpler(one: &Discovery, other: &Discovery) -> bool {
     }
 }
 
-/// Looks for what the model `rig` of the record `data` lacks.
+/// The same where it is said what the input does.
 fn walked(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitError> {
     let still;
     let data = if data.force.is_some() {

@@ -32,8 +32,9 @@ const PATIENCE: Patience = Patience { misfit: 1.0, share: 1e-5, simulations: 8 }
 /// The steps' tolerance [1].
 const TOLERANCE: f64 = 1e-5;
 
-/// `rig` as it says what its input does between samples, or else as the record tells: what is free is fitted with
-/// either, from the values of `rig`. It is as it was where nothing is to be said.
+/// What the input of `rig` does between the samples of the record `data`: what is free is fitted with either, from the
+/// values of `rig`, and the nearer one is told. None where the rig file says it, or there is nothing to be said. Fails
+/// where the record cannot be fitted at all.
 pub fn told(rig: &Rig, data: &Data) -> Result<Option<Hold>, FitError> {
     if rig.unsaid().is_none() {
         return Ok(None);
