@@ -56,7 +56,7 @@ impl Walk<'_> {
             [before, refit, &self.best].map(|f| self.judged(&f.blocks).level());
         let mostly = [before, refit, &self.best].map(|f| self.judged(&f.blocks).mostly());
         let struck = self.struck();
-        let unexplained = mostly[2].min(last) > MORE || struck;
+        let unexplained = mostly[2] > MORE || struck;
         let map = if unexplained { self.map(context)? } else { None };
         let (values, wrong) = self.values(rig)?;
         for effect in &mut effects {
@@ -259,15 +259,15 @@ fn verdict(
     struck: bool,
 ) -> Verdict {
     // A few blocks that went astray say little.
-    let more = |level: f64, mostly: f64| level.min(mostly) > MORE;
+    let more = |mostly: f64| mostly > MORE;
     if effects.is_empty() {
-        if struck || more(refit, mostly[1]) {
+        if struck || more(mostly[1]) {
             return Verdict::NotInLibrary;
         }
         let wrong = parameters.iter().any(|p| p.moved) && before > refit * 1.05;
         return if wrong { Verdict::Parameter } else { Verdict::NothingMissing };
     }
-    if !more(last, mostly[2]) {
+    if !more(mostly[2]) {
         return Verdict::Effect;
     }
     // What takes away a part of something else is not its name.

@@ -220,13 +220,11 @@ impl Problem<'_> {
         self.spread.get(i).map_or(own, |more| own.hypot(more[0]))
     }
 
-    /// What the residuals of sample `i` are divided by: displacement, velocity where it is seen, input.
-    pub(super) fn weights_at(&self, i: usize) -> [f64; 3] {
-        let input = self.weights.input;
-        match &self.data.velocity {
-            Some(seen) => [self.first_weight(i), self.velocity_weight(&seen.values, i), input],
-            None => [self.first_weight(i), input, input],
-        }
+    /// What the residuals of sample `i` are divided by: displacement, and velocity if it is seen.
+    pub(super) fn weights_at(&self, i: usize) -> [f64; 2] {
+        let seen = self.data.velocity.as_ref();
+        let velocity = seen.map_or(1.0, |seen| self.velocity_weight(&seen.values, i));
+        [self.first_weight(i), velocity]
     }
 
     /// What a step may be wrong by, and how many a window may take.

@@ -10,7 +10,7 @@ use super::{
     problem::{Piece, Problem},
     window::Window,
 };
-use crate::march::{Passage, deviations, passages};
+use crate::march::{Model, Passage, deviations, passages};
 use nalgebra::{DMatrix, DVector};
 
 /// From one sample to the next.
@@ -110,39 +110,41 @@ impl Whitening {
 
 impl Problem<'_> {
     /// What makes the residuals of a driven window independent, where the recorded input has this much `noise` [its
-    /// unit]; none where it has none, or the window no motion.
+    /// unit]; none where it has none, where a controller makes it anew, or the window has no motion.
     pub fn whitening(
         &self,
         x: &[f64],
         (window, piece): (&Window, &Piece),
         noise: f64,
     ) -> Option<Whitening> {
+        let moves = piece.motion.tape.samples() == window.len();
+        if noise <= 0.0 || self.closed_loop || !moves {
+            return None;
+        }
         let model = self.model(x);
         match deviations(&model) + 2 {
-            0..=8 => self.whitened::<8>(x, (window, piece), noise),
-            9..=12 => self.whitened::<12>(x, (window, piece), noise),
-            13..=20 => self.whitened::<20>(x, (window, piece), noise),
-            _ => self.whitened::<40>(x, (window, piece), noise),
+            0..=8 => self.whitened::<8>(&model, (window, piece), noise),
+            9..=12 => self.whitened::<12>(&model, (window, piece), noise),
+            13..=20 => self.whitened::<20>(&model, (window, piece), noise),
+            21..=40 => self.whitened::<40>(&model, (window, piece), noise),
+            _ => None,
         }
     }
 
+    /// The same with numbers that have room for P − 2 deviations.
     fn whitened<const P: usize>(
         &self,
-        x: &[f64],
+        model: &Model<f64>,
         (window, piece): (&Window, &Piece),
         noise: f64,
     ) -> Option<Whitening> {
-        let model = self.model(x);
-        let n = deviations(&model);
-        if noise <= 0.0 || n + 2 > P || piece.motion.tape.samples() != window.len() {
-            return None;
-        }
-        let state = self.state(&model, window, piece.start);
+        let n = deviations(model);
+        let state = self.state(model, window, piece.start);
         let time = &self.data.time[window.first..window.end];
         let channels = self.channels();
         let mut all = Vec::with_capacity(window.len());
         passages::<P>(
-            &model,
+            model,
             (&self.drive(window), time),
             &piece.motion.tape,
             &state,
