@@ -2,9 +2,13 @@
 
 use identify::{
     Hold, Rig,
-    fit::{Data, Fit, FitError, Options, Seen, Way, binding, fit, hold, search::End, simulate},
+    fit::{
+        Data, Fit, FitError, Options, Seen, Way, binding, fit, hold, problem::Problem, search::End,
+        simulate, window::Window,
+    },
     march::{Drive, Start, Tolerance, march},
 };
+use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -69,6 +73,40 @@ fn found_within(fit: &Fit, rig: &Rig, errors: f64) {
         assert!(off < errors, "{}: {found} ± {error} for {truth}, {off:.1} errors off", p.name);
         assert!(error < 0.2 * truth.abs(), "{}: ± {error} says nothing of {truth}", p.name);
     }
+}
+
+#[test]
+fn residuals_are_freed_of_what_the_inputs_noise_does() {
+    let friction = "name = \"lugre\"\nf_c = 2.0\nf_s = 2.0\nv_s = 0.1\nsigma_0 = 2e4\nsigma_1 = 20.0\nsigma_2 = 0.5";
+    let rig = rig(friction, "\"f_c\"");
+    let data = held(&rig, Hold::ZeroOrder, (20.0, 7));
+    let start = Window::new(&data, 110, 122).start;
+    let residuals = |data: &Data| {
+        let problem =
+            Problem { tolerance: 1e-9, ..Problem::unfree(&rig, data).expect("a problem") };
+        let window = Window::new(data, 110, 122);
+        let piece = problem.piece(&[], &window, start);
+        let whitening = problem.whitening(&[], (&window, &piece), 0.05);
+        (piece.residuals, whitening.expect("noise that is seen"))
+    };
+    let (_, whitening) = residuals(&data);
+    // What each interval's input does to the residuals, by differences of the motions themselves.
+    let by = |k: usize| {
+        let moved = |by: f64| {
+            let mut data = data.clone();
+            data.input[110 + k] += by;
+            residuals(&data).0
+        };
+        let (more, less) = (moved(1e-3), moved(-1e-3));
+        DVector::from_fn(24, |i, _| 0.05 * (more[i] - less[i]) / 2e-3)
+    };
+    let b = DMatrix::from_columns(&(0..11).map(by).collect::<Vec<_>>());
+    assert!(b.norm() > 1.0, "the noise is seen: {}", b.norm());
+    let mut w = DMatrix::identity(24, 24);
+    whitening.apply_all(&mut w);
+    let white = &w * (DMatrix::identity(24, 24) + &b * b.transpose()) * w.transpose();
+    let off = (&white - DMatrix::identity(24, 24)).amax();
+    assert!(off < 1e-3, "off by {off}");
 }
 
 #[test]
