@@ -12,7 +12,7 @@ use identify::{
 use std::collections::BTreeMap;
 use twin::{
     HiddenEffect,
-    bench::{Case, Excitation, Family, FrictionKind, Hides, Noise, Recipe, case_of},
+    bench::{Between, Case, Excitation, Family, FrictionKind, Hides, Noise, Recipe, case_of},
 };
 
 /// Effects that are not found on both excitations yet: a list to be worked down. One of it may be found on one processor
@@ -77,6 +77,8 @@ fn plants() -> Vec<(String, Rig, Data)> {
                 noise: Noise::Low,
                 friction,
                 hides: Hides::Nothing,
+                input: Between::Held,
+                other: false,
             };
             let (_, rig, data) = made(&recipe, 3, SHORT);
             let rig = Rig { free: Vec::new(), ..rig };
@@ -250,7 +252,8 @@ fn names(answer: &Discovery, name: &str) -> bool {
 fn planted(name: &str, excitation: Excitation) -> (bool, String) {
     let (family, friction) = host(name);
     let hides = Hides::Effects(vec![name.to_owned()]);
-    let recipe = Recipe { family, excitation, noise: Noise::Low, friction, hides };
+    let (noise, input) = (Noise::Low, Between::Held);
+    let recipe = Recipe { family, excitation, noise, friction, hides, input, other: false };
     let (_, rig, data) = made(&recipe, 21, LONG);
     match discover(&rig, &data, &Options::default()) {
         Ok(answer) => {

@@ -68,6 +68,9 @@ pub(crate) const FEWEST_ROWS: usize = 8;
 /// The largest sample of any channel [SI]: what is above is a wrong unit or no measurement.
 pub(crate) const LARGEST: f64 = 1e15;
 
+/// What has less noise than so many of the steps that are said of it does not move in them.
+const SMOOTH: f64 = 0.1;
+
 /// A step of the clock so many times the usual one is a gap.
 pub(crate) const GAP: f64 = 1.5;
 
@@ -88,7 +91,7 @@ impl Recording {
             let factor = to_si(rig, quantity, channel);
             let values: Vec<f64> = column.iter().map(|v| v * factor).collect();
             check(&channel.column, column, &values)?;
-            if let Some(step) = quantum_at_drum(rig, channel) {
+            if let Some(step) = stated_step(rig, channel, (factor, &values)) {
                 quantum.insert(quantity.name.to_owned(), step);
             }
             channels.insert(quantity.name.to_owned(), values);
@@ -136,9 +139,23 @@ pub(crate) fn to_si(rig: &Rig, quantity: &Quantity, channel: &Channel) -> f64 {
     size / gear(rig, channel)
 }
 
-/// The step of the channel's encoder at the drum [SI], where the rig file says it.
-pub(crate) fn quantum_at_drum(rig: &Rig, channel: &Channel) -> Option<f64> {
-    channel.quantum.map(|quantum| quantum / gear(rig, channel))
+/// The step of the channel's encoder at the drum [SI], where the rig file says it, of samples that are `values` there
+/// and came by `factor` from those of the column. A rig file says it in SI units; one in the unit of the column, which is
+/// what an encoder's sheet has, is taken for that where the samples move in such steps.
+pub(crate) fn stated_step(
+    rig: &Rig,
+    channel: &Channel,
+    (factor, values): (f64, &[f64]),
+) -> Option<f64> {
+    let stated = channel.quantum?;
+    let (si, own) = (stated / gear(rig, channel).abs(), stated * factor.abs());
+    let off = |step: f64, seen: f64| (step / seen).ln().abs();
+    let in_column = match crate::doctor::quantum(values) {
+        Some(seen) => off(own, seen) < off(si, seen),
+        // Steps would have left 0.29 of one as noise.
+        None => crate::doctor::noise(values) < SMOOTH * si && own < si,
+    };
+    Some(if in_column { own } else { si })
 }
 
 fn gear(rig: &Rig, channel: &Channel) -> f64 {

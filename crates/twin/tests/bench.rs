@@ -1,11 +1,12 @@
 //! The cases of the benchmark.
 
-use twin::bench::{Excitation, Family, FrictionKind, Hides, Noise, Recipe, case, case_of};
+use twin::bench::{Between, Excitation, Family, FrictionKind, Hides, Noise, Recipe, case, case_of};
 use twin::{HiddenEffect, make};
 
 fn recipe(family: Family, hides: Hides) -> Recipe {
     let friction = FrictionKind::LuGre;
-    Recipe { family, excitation: Excitation::Multisine, noise: Noise::Middle, friction, hides }
+    let (excitation, noise) = (Excitation::Multisine, Noise::Middle);
+    Recipe { family, excitation, noise, friction, hides, input: Between::Held, other: false }
 }
 
 fn hiding(family: Family, name: &str) -> Recipe {

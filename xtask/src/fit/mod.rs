@@ -103,7 +103,7 @@ pub(crate) fn fit(arguments: &FitArgs) -> Result<Exit, Failure> {
 
 /// The rig with what the record tells of its input between samples, where its file does not say.
 fn heard(rig: Rig, data: &mut Data) -> Result<Rig, FitError> {
-    let told = hold::told(&rig, data)?;
+    let told = hold::told(&rig, data)?.map(|told| told.hold);
     data.hold = told.unwrap_or(data.hold);
     if let Some(hold) = told {
         output::note(&format!("the input {}", crate::discover::between(hold)));

@@ -12,6 +12,9 @@ const STRAYED: f64 = 5.0;
 /// The constant force on the side of the friction.
 pub(super) const OFFSET: &str = "offset";
 
+/// What a unit of the input gives, plant by plant.
+const DRIVES: &[&str] = &["motor_constant", "gain", "torque_constant", "resistance"];
+
 /// The torque of a drum's two prestressed springs, if both pulled the same way [N·m].
 pub(super) fn prestress(rig: &Rig) -> f64 {
     if rig.kind != "drum" || rig.free.iter().any(|f| f == "f_10") {
@@ -32,15 +35,23 @@ pub(crate) fn loose(rig: &Rig) -> Vec<(String, f64)> {
         "pendulum" => &["inertia", "mass"],
         _ => &[],
     };
-    let fixed = keys.iter().filter(|key| !rig.free.iter().any(|f| f == *key));
+    // Where what a drive gives is free as well, what is given of the plant is the scale.
+    let driven = DRIVES.iter().any(|key| is_free(rig, key));
+    let keys = if driven { &[] } else { keys };
+    let fixed = keys.iter().filter(|key| !is_free(rig, key));
     let some =
         fixed.filter_map(|key| Some(((*key).to_owned(), rig.value(key).filter(|v| *v > 0.0)?)));
     let mut all: Vec<(String, f64)> = some.collect();
     // Springs that are drawn a little otherwise than said push to one side.
-    if prestress(rig) > 0.0 && !rig.free.iter().any(|f| f == OFFSET) {
+    if prestress(rig) > 0.0 && !is_free(rig, OFFSET) {
         all.push((OFFSET.to_owned(), rig.value(OFFSET).unwrap_or(0.0)));
     }
     all
+}
+
+/// Whether a parameter of `rig` is free.
+fn is_free(rig: &Rig, key: &str) -> bool {
+    rig.free.iter().any(|free| free == key)
 }
 
 /// `rig` with what is `loose` free as well.

@@ -26,6 +26,10 @@ const GAIN: f64 = 12.0;
 /// squares that falls there by as much as on the others says the same.
 const FALLS: f64 = 0.01;
 
+/// So many of the best are worth a refit whatever the judging blocks say, if they gain ten standard errors.
+const FIRST_OF_ALL: usize = 2;
+const SURELY: f64 = 100.0;
+
 /// So many more are refitted where the model is far off.
 const BESIDE: usize = 20;
 
@@ -275,7 +279,11 @@ impl Walk<'_> {
                 s.gain > GAIN && (near || with.level() < than.level() - FALLS)
             };
             let smooth = |s: &&Scored| s.kind.tried().is_empty() && s.plausible;
-            scores.iter().filter(smooth).filter(gains).cloned().collect()
+            // Where a straight line leads too far only a refit can tell.
+            let first = scores.iter().filter(smooth).take(FIRST_OF_ALL);
+            let surely: Vec<Kind> = first.filter(|s| s.gain > SURELY).map(|s| s.kind).collect();
+            let worth = |s: &&Scored| gains(s) || surely.contains(&s.kind);
+            scores.iter().filter(smooth).filter(worth).cloned().collect()
         };
         let mut all = gains(there);
         if all.is_empty() && far {

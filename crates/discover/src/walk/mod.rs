@@ -17,7 +17,7 @@ use crate::{
     gram::Gram,
     model::{self, Candidate},
     screen::Scored,
-    verdict::{Discovery, Found, Options, Ranked},
+    verdict::{Discovery, Found, Options, Ranked, Verdict},
 };
 use identify::{
     Hold, Rig,
@@ -86,17 +86,26 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         let (rig, data) = (rig.clone().saying(Some(hold)), Data { hold, ..data.clone() });
         Ok(Discovery { hold: Some(hold), ..walked(&rig, &data, options)? })
     };
-    let found = with(told)?;
+    let found = with(told.hold)?;
     let delay = found.rig.value("input_delay.delay").unwrap_or(0.0) / data.sample_time();
     // Half a sample late is what an input is that is held.
-    let again = if told == Hold::Linear && HALF.contains(&delay) {
+    let again = if told.hold == Hold::Linear && HALF.contains(&delay) {
         Some(Hold::ZeroOrder)
     } else {
-        hold::told(&found.rig.clone().asking(), data)?.filter(|again| *again != told)
+        other_hold(&found, told.hold, hold::told(&found.rig.clone().asking(), data)?)
     };
     let Some(again) = again else { return Ok(found) };
     let other = with(again)?;
     Ok(if simpler(&other, &found) { other } else { found })
+}
+
+/// The other way between samples, if beside the model that was `found` with one the record speaks for it; or for neither
+/// where something is found, which the wrong one of the two may have asked for.
+fn other_hold(found: &Discovery, hold: Hold, again: Option<hold::Told>) -> Option<Hold> {
+    let again = again?;
+    let other = if hold == Hold::Linear { Hold::ZeroOrder } else { Hold::Linear };
+    let asked = !matches!(found.verdict, Verdict::NothingMissing | Verdict::Parameter);
+    (again.hold == other || asked && !again.sure).then_some(other)
 }
 
 /// Whether an answer leaves less than another, or as much with fewer effects.
@@ -336,7 +345,8 @@ impl Walk<'_> {
 #[cfg(test)]
 mod tests {
     use super::{Discovery, simpler};
-    use crate::{Verdict, walk::made};
+    use crate::walk::made;
+    use super::Verdict;
 
     /// An answer with so many effects that leaves so much.
     fn answer(effects: usize, left: f64) -> Discovery {

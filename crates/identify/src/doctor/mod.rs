@@ -7,10 +7,10 @@ mod sampling;
 mod series;
 mod signs;
 
-pub(crate) use series::median_step;
+pub(crate) use series::{median_step, quantum};
 pub use series::noise;
 
-use crate::recording::{Columns, FEWEST_ROWS, quantum_at_drum, to_si, usable};
+use crate::recording::{Columns, FEWEST_ROWS, stated_step, to_si, usable};
 use crate::rig::{Kind, Rig};
 use serde::Serialize;
 use series::n;
@@ -241,13 +241,14 @@ fn of_rig(rig: &Rig, columns: &Columns, findings: &mut Findings) -> Vec<Series> 
         let si = quantity.dimensions.iter().find(|d| {
             channel.unit.as_deref().is_none_or(|u| crate::rig::units::size_in_si(u, &[**d]).is_ok())
         });
+        let values: Vec<f64> = column.iter().map(|v| v * factor).collect();
         all.push(Series {
             name: quantity.name.to_owned(),
             unit: si.map_or("", |d| d.si()),
             measured: !["reference", "added_input"].contains(&quantity.name),
-            values: column.iter().map(|v| v * factor).collect(),
+            stated: stated_step(rig, channel, (factor, &values)),
+            values,
             facts: None,
-            stated: quantum_at_drum(rig, channel),
         });
     }
     short(&mut all, findings);

@@ -66,7 +66,7 @@ const LEVELS: usize = 8;
 ///
 /// The smallest distance is the first guess, refined over ever larger distances; it is a quantum if 95 % of
 /// the distances are within a tenth of a step of a multiple, where chance would give 20 %.
-pub(super) fn quantum(values: &[f64]) -> Option<f64> {
+pub(crate) fn quantum(values: &[f64]) -> Option<f64> {
     let mut levels: Vec<f64> = values.iter().copied().filter(|v| usable(*v)).collect();
     levels.sort_unstable_by(f64::total_cmp);
     let largest = levels.last()?.abs().max(levels.first()?.abs());

@@ -1,6 +1,6 @@
 //! `cable_slack`: A cable cannot push: a spring whose force has come down to nothing stays there.
 
-use super::{About, Channel, Key, Law, Load, Measure, family::{has_springs}};
+use super::{About, Act, At, Channel, Key, Law, Load, Measure, family::{has_springs}};
 use crate::march::Real;
 
 /// A cable cannot push: a spring whose force has come down to nothing stays there.
@@ -18,6 +18,15 @@ impl Law for CableSlack {
         separated_by: "load cells",
         test: 0.1,
     };
+
+    fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
+        // What each cable would push with, were it a rod, is not there.
+        let [one, other] = at.balance.cables.map(|[taut, by]| {
+            let torque = taut + by * at.q;
+            if torque.re() < 0.0 { torque } else { D::from(0.0) }
+        });
+        Act::force((other - one) * p[0])
+    }
 
     fn load<D: Real>(p: &[D], _: &Load, force: D) -> D {
         if force.re() < 0.0 { force - force * p[0] } else { force }

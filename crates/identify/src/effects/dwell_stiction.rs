@@ -11,8 +11,8 @@ impl Law for DwellStiction {
         name: "dwell_stiction",
         physics: "The longer a contact rests, the more it takes to break it away.",
         channel: Channel::Torque,
-        keys: &[Key::positive("drop", Measure::Force, 3.0), Key::fitted("tau", Measure::Time)],
-        probes: |_| vec![vec![0.1], vec![0.5], vec![2.0]],
+        keys: &[Key::positive("drop", Measure::Force, 3.0), Key::fitted("tau", Measure::Time), Key::probed("wear", Measure::One)],
+        probes: |_| [1.0, 10.0].iter().flat_map(|wear| [0.1, 0.5, 2.0].map(|tau| vec![tau, *wear])).collect(),
         applies: rubs,
         confused: &["stribeck", "maxwell_slip"],
         separated_by: "rests of several lengths before the same break-away",
@@ -21,10 +21,10 @@ impl Law for DwellStiction {
     const STATES: usize = 1;
 
     fn act<D: Real>(p: &[D], at: &At<D>, base: &[D], z: &mut [D]) -> Act<D> {
-        // The age is forgotten as the contact slips; what its bristles follow is no slip.
+        // The age is forgotten as the contact slips by `wear` deflections of its bristles; what they follow is no slip.
         let speed = if at.v.re() < 0.0 { -at.v } else { at.v };
         let aged = p[1].recip() * at.dt;
-        let worn = speed * at.held() * at.dt / at.grain();
+        let worn = speed * at.held() * at.dt / (p[2] * at.grain());
         z[0] = (base[0] + aged) / (aged + worn + 1.0);
         Act::rise(p[0] * z[0])
     }

@@ -13,7 +13,7 @@ impl Law for GravityUnbalance {
         channel: Channel::Torque,
         keys: &[Key::amount("sine", Measure::Force, 5.0), Key::amount("cosine", Measure::Force, 5.0)],
         probes: About::no_shape,
-        applies: |rig| rig.kind == "drum",
+        applies: |rig| rig.kind == "drum" || rig.kind == "pendulum",
         confused: &["cubic_spring", "current_bias", "cogging"],
         separated_by: "load cells, or a whole turn",
         test: 0.1,

@@ -11,8 +11,13 @@ impl Law for Stribeck {
         name: "stribeck",
         physics: "Friction falls from its break-away value to that of sliding.",
         channel: Channel::Torque,
-        keys: &[Key::positive("drop", Measure::Force, 3.0), Key::fitted("v_s", Measure::Speed)],
-        probes: |c| [1e-3, 1e-2, 0.05, 0.2].iter().map(|s| vec![s * c.speed]).collect(),
+        keys: &[Key::positive("drop", Measure::Force, 3.0), Key::fitted("v_s", Measure::Speed), Key::probed("form", Measure::One)],
+        probes: |c| {
+            let first = [1e-3, 1e-2, 0.05, 0.2].map(|s| (s, 1.0));
+            let others: &[f64] = if c.memory > 0.0 { &[2.0, 3.0, 4.0] } else { &[2.0] };
+            let others = others.iter().flat_map(|form| [(0.01, *form), (0.1, *form)]);
+            first.into_iter().chain(others).map(|(s, form)| vec![s * c.speed, form]).collect()
+        },
         applies: |rig| (value(rig, "f_s") == value(rig, "f_c") || rig.value("f_s").is_none()) && !is_free(rig, "f_s") && rig.friction.name != "none",
         confused: &["dwell_stiction", "maxwell_slip", "sublinear_drag"],
         separated_by: "slow ramps through zero speed without rests, and rests of several lengths",
@@ -20,7 +25,12 @@ impl Law for Stribeck {
     };
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        let s = at.v / p[1];
-        Act::rise(p[0] * (-s * s).exp())
+        // Forms 1 and 3: exp(−(v/v_s)²), as in the paper; 2 and 4: exp(−|v|/v_s), as in older texts. The first two
+        // change the level at which the contact slips, the others its whole force.
+        let (s, form) = (at.v / p[1], p[2].re());
+        let power = if form % 2.0 == 1.0 { s * s } else if s.re() < 0.0 { -s } else { s };
+        let rise = p[0] * (-power).exp();
+        let f_c = at.f_c();
+        if form < 2.5 || f_c.re() <= 0.0 { Act::rise(rise) } else { Act::more(rise / f_c) }
     }
 }

@@ -29,15 +29,21 @@ pub fn model<D: Real>(rig: &Rig, free: &dyn Fn(&str) -> Option<D>) -> Model<D> {
         stiffness: zero,
         damping: zero,
         gravity: zero,
+        cables: [[zero; 2]; 2],
     };
     let balance = match rig.kind {
         "drum" => {
             let r = plant("radius");
+            let cables = [
+                [plant("f_10") * r, plant("k_1") * r * r],
+                [plant("f_20") * r, -(plant("k_2") * r * r)],
+            ];
             Balance {
                 mass: plant("inertia"),
                 gain: plant("motor_constant"),
                 constant: (plant("f_20") - plant("f_10")) * r,
                 stiffness: (plant("k_1") + plant("k_2")) * r * r,
+                cables,
                 ..nothing
             }
         }

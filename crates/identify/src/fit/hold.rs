@@ -32,10 +32,22 @@ const PATIENCE: Patience = Patience { misfit: 1.0, share: 1e-5, simulations: 8 }
 /// The steps' tolerance [1].
 const TOLERANCE: f64 = 1e-5;
 
+/// Standard errors from which on the nearer of two models is surely so.
+const SURE: f64 = 3.0;
+
+/// What a record tells of its input.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Told {
+    /// What the input does between samples.
+    pub hold: Hold,
+    /// Whether the record shows it beyond chance.
+    pub sure: bool,
+}
+
 /// What the input of `rig` does between the samples of the record `data`: what is free is fitted with either, from the
 /// values of `rig`, and the nearer one is told. None where the rig file says it, or there is nothing to be said. Fails
 /// where the record cannot be fitted at all.
-pub fn told(rig: &Rig, data: &Data) -> Result<Option<Hold>, FitError> {
+pub fn told(rig: &Rig, data: &Data) -> Result<Option<Told>, FitError> {
     if rig.unsaid().is_none() {
         return Ok(None);
     }
@@ -49,11 +61,21 @@ pub fn told(rig: &Rig, data: &Data) -> Result<Option<Hold>, FitError> {
     }
     let [linear, held] = [Hold::Linear, Hold::ZeroOrder];
     let both = rayon::join(|| misfit(&rig, data, linear), || misfit(&rig, data, held));
-    Ok(Some(if both.1? < both.0? { held } else { linear }))
+    let nearer: Vec<f64> = both.0?.iter().zip(both.1?).map(|(line, step)| line - step).collect();
+    let mean = nearer.iter().sum::<f64>() / nearer.len().max(1) as f64;
+    let hold = if mean > 0.0 { held } else { linear };
+    Ok(Some(Told { hold, sure: sure(&nearer, mean) }))
 }
 
-/// What a model leaves of the windows, by their logarithms.
-fn misfit(rig: &Rig, data: &Data, hold: Hold) -> Result<f64, FitError> {
+/// Whether the `mean` of the windows is so far from 0 that it is no chance.
+fn sure(windows: &[f64], mean: f64) -> bool {
+    let n = windows.len() as f64;
+    let variance = windows.iter().map(|w| (w - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
+    mean.abs() > SURE * (variance / n).sqrt()
+}
+
+/// What a model leaves of every window, by its logarithm.
+fn misfit(rig: &Rig, data: &Data, hold: Hold) -> Result<Vec<f64>, FitError> {
     let data = Data { hold, ..data.clone() };
     let all = blocks::blocks(&data, Some(WINDOW));
     let stride = all.len().div_ceil(MOST);
@@ -72,5 +94,5 @@ fn misfit(rig: &Rig, data: &Data, hold: Hold) -> Result<f64, FitError> {
     let windows = problem.windows.iter().zip(&near.pieces).map(whitened).collect();
     let problem = Problem { windows, ..problem.clone() };
     let pieces = descend(&problem, (&near.x, Some(&near.pieces)), &PATIENCE).pieces;
-    Ok(pieces.iter().map(|piece| piece.misfit().max(f64::MIN_POSITIVE).ln()).sum())
+    Ok(pieces.iter().map(|piece| piece.misfit().max(f64::MIN_POSITIVE).ln()).collect())
 }

@@ -10,8 +10,12 @@ use super::{
     problem::{Piece, Problem},
     window::Window,
 };
+use crate::Hold;
 use crate::march::{Model, Passage, deviations, passages};
 use nalgebra::{DMatrix, DVector};
+
+/// A step of the input is a jump for as much as it is more than so many times those beside it, or the noise.
+const JUMP: f64 = 4.0;
 
 /// From one sample to the next.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,7 +114,7 @@ impl Whitening {
 
 impl Problem<'_> {
     /// What makes the residuals of a driven window independent, where the recorded input has this much `noise` [its
-    /// unit]; none where it has none, where a controller makes it anew, or the window has no motion.
+    /// unit], and when it jumped is not known; none where there is neither, where a controller makes it anew, or the window has no motion.
     pub fn whitening(
         &self,
         x: &[f64],
@@ -118,17 +122,32 @@ impl Problem<'_> {
         noise: f64,
     ) -> Option<Whitening> {
         let moves = piece.motion.tape.samples() == window.len();
-        if noise <= 0.0 || self.closed_loop || !moves {
+        let noise = self.noise(window, noise);
+        if noise.iter().all(|noise| *noise <= 0.0) || self.closed_loop || !moves {
             return None;
         }
         let model = self.model(x);
         match deviations(&model) + 2 {
-            0..=8 => self.whitened::<8>(&model, (window, piece), noise),
-            9..=12 => self.whitened::<12>(&model, (window, piece), noise),
-            13..=20 => self.whitened::<20>(&model, (window, piece), noise),
-            21..=40 => self.whitened::<40>(&model, (window, piece), noise),
+            0..=8 => self.whitened::<8>(&model, (window, piece), &noise),
+            9..=12 => self.whitened::<12>(&model, (window, piece), &noise),
+            13..=20 => self.whitened::<20>(&model, (window, piece), &noise),
+            21..=40 => self.whitened::<40>(&model, (window, piece), &noise),
             _ => None,
         }
+    }
+
+    /// The noise of the input over each interval of a window [its unit]. What goes straight from sample to sample may have
+    /// jumped at any time between two of them: as an impulse that is white noise of the jump over √12.
+    fn noise(&self, window: &Window, noise: f64) -> Vec<f64> {
+        let input = &self.data.input[window.first..window.end];
+        let steps: Vec<f64> = input.windows(2).map(|u| (u[1] - u[0]).abs()).collect();
+        let at = |k: Option<usize>| k.and_then(|k| steps.get(k)).copied().unwrap_or(0.0);
+        let jump = |k: usize| {
+            let beside = at(k.checked_sub(1)).max(at(Some(k + 1)));
+            (steps[k] - JUMP * beside.max(noise)).max(0.0)
+        };
+        let late = |k: usize| if self.data.hold == Hold::Linear { jump(k) } else { 0.0 };
+        (0..steps.len()).map(|k| noise.hypot(late(k) / 12f64.sqrt())).collect()
     }
 
     /// The same with numbers that have room for P − 2 deviations.
@@ -136,7 +155,7 @@ impl Problem<'_> {
         &self,
         model: &Model<f64>,
         (window, piece): (&Window, &Piece),
-        noise: f64,
+        noise: &[f64],
     ) -> Option<Whitening> {
         let n = deviations(model);
         let state = self.state(model, window, piece.start);
@@ -155,6 +174,7 @@ impl Problem<'_> {
                     Some(c) => (&passage.seen[c], weights[c].recip()),
                 };
                 let by = DMatrix::from_fn(n + channels, n, |i, j| row(i).0[j] * row(i).1);
+                let noise = noise.get(all.len()).copied().unwrap_or(0.0);
                 let noise = DVector::from_fn(n + channels, |i, _| noise * row(i).0[n] * row(i).1);
                 all.push((by, noise));
             },

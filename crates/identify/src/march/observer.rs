@@ -45,6 +45,7 @@ pub fn observe(
     probe.balance.damping += Dual::from(strength);
     if !measured.pull.is_empty() {
         probe.balance.stiffness = Dual::from(0.0);
+        probe.balance.cables = [[Dual::from(0.0); 2]; 2];
     }
     let constant = probe.balance.constant.re;
     let mut z = start(model, drive, measured);

@@ -18,6 +18,9 @@ pub struct Balance<D> {
     pub damping: D,
     /// Largest moment of gravity m g l [N·m].
     pub gravity: D,
+    /// The torque of each cable of a drum at q = 0 [N·m], and by how much it grows with q, or falls [N·m/rad]; their
+    /// difference is part of `constant` and `stiffness`.
+    pub cables: [[D; 2]; 2],
 }
 
 /// A plant and its friction.
@@ -250,6 +253,7 @@ impl<D: Real> Model<D> {
                 stiffness: to(b.stiffness),
                 damping: to(b.damping),
                 gravity: to(b.gravity),
+                cables: b.cables.map(|cable| cable.map(&to)),
             },
             contact: self.contact.map(&to),
             sigma_2: to(self.sigma_2),

@@ -200,7 +200,12 @@ fn free(fit: &Table, rig: &Rig) -> Result<Vec<String>, RigError> {
     let known = rig.parameters();
     let known: Vec<&str> = known.iter().map(String::as_str).collect();
     let (mut names, mut all) = (Vec::new(), Vec::new());
-    for (line, name) in item.texts(fit.text, expected)? {
+    let texts = item.texts(fit.text, expected)?;
+    // Who names an element 0 counts from there.
+    let from_zero = texts.iter().any(|(_, name)| name.ends_with("[0]"));
+    for (line, name) in texts {
+        let counted = if from_zero { one_later(name) } else { None };
+        let name = counted.as_deref().unwrap_or(name);
         let elements = rig.expand(name);
         if elements.is_empty() {
             return Err(RigError::unknown(Some(line), "parameter", name, &known));
@@ -219,6 +224,12 @@ fn free(fit: &Table, rig: &Rig) -> Result<Vec<String>, RigError> {
         names.push(name.to_owned());
     }
     Ok(names)
+}
+
+/// The name of a list's element that is counted from 0, counted from 1.
+fn one_later(name: &str) -> Option<String> {
+    let (list, place) = name.strip_suffix(']')?.split_once('[')?;
+    Some(format!("{list}[{}]", place.parse::<usize>().ok()?.checked_add(1)?))
 }
 
 fn read_channels(table: &Table, kind: &Kind) -> Result<BTreeMap<String, Channel>, RigError> {

@@ -24,6 +24,8 @@ pub(super) struct Sizes {
     /// Four numbers between 0 and 1 that give the effect its shape, and a sign.
     pub(super) shape: [f64; 4],
     pub(super) sign: f64,
+    /// Where a law has several forms, the uncommon one.
+    pub(super) other: bool,
 }
 
 impl Sizes {
@@ -32,9 +34,15 @@ impl Sizes {
         (self.high - self.low) / 2.0
     }
 
-    /// A wavenumber with one to four waves on the way.
+    /// A wavenumber with one to four waves on the way; in the other form with up to sixty, of which no sample
+    /// skips more than a sixth.
     fn wavenumber(&self) -> f64 {
-        TAU * (1.0 + 3.0 * self.shape[0]) / (2.0 * self.travel())
+        let way = 2.0 * self.travel();
+        if self.other {
+            let most = (way * super::RATE / (12.0 * self.speed)).clamp(4.0, 60.0);
+            return TAU * self.from(0, 4.0, most) / way;
+        }
+        TAU * (1.0 + 3.0 * self.shape[0]) / way
     }
 
     /// Sine and cosine parts of a wave of this size.
@@ -54,9 +62,10 @@ impl Sizes {
 pub(super) fn calibrated(
     without: &Scenario,
     name: &str,
+    other: bool,
     (seed, stream): (u64, &mut ChaCha20Rng),
 ) -> Result<HiddenEffect, TwinError> {
-    let sizes = sizes(without, seed, stream)?;
+    let sizes = Sizes { other, ..sizes(without, seed, stream)? };
     let small = stream.random::<f64>() < 0.2;
     let target = if small { octaves(1.0, 10.0, stream) } else { octaves(10.0, 100.0, stream) };
     // Less than 2 % of the friction is nothing one would look for; a joint or a sensor shows much less.
@@ -133,6 +142,7 @@ fn sizes(without: &Scenario, seed: u64, stream: &mut ChaCha20Rng) -> Result<Size
         plant: without.plant,
         shape: [stream.random(), stream.random(), stream.random(), stream.random()],
         sign: sign(stream),
+        other: false,
     })
 }
 
@@ -153,11 +163,14 @@ fn effect(name: &str, s: f64, sizes: &Sizes) -> Result<HiddenEffect, TwinError> 
 fn friction(name: &str, s: f64, sizes: &Sizes) -> Option<HiddenEffect> {
     use HiddenEffect as E;
     let (level, speed, signed) = (sizes.level, sizes.speed, s * sizes.sign);
+    let other = sizes.other;
     Some(match name {
         "viscous" => E::Viscous(nature::Viscous { sigma_2: s * level / speed }),
-        "stribeck" => {
-            E::Stribeck(nature::Stribeck { drop: s * level, v_s: speed * sizes.from(0, 0.03, 0.3) })
-        }
+        "stribeck" => E::Stribeck(nature::Stribeck {
+            drop: s * level,
+            v_s: speed * sizes.from(0, 0.03, 0.3),
+            power: if other { 1.0 } else { 2.0 },
+        }),
         "quadratic_drag" => {
             E::QuadraticDrag(nature::QuadraticDrag { c: s * level / (speed * speed) })
         }
@@ -171,14 +184,16 @@ fn friction(name: &str, s: f64, sizes: &Sizes) -> Option<HiddenEffect> {
             E::ViscousAsymmetry(nature::ViscousAsymmetry { c: signed * level / speed })
         }
         "position_friction" => E::PositionFriction(position_friction(s, sizes)),
-        "load_friction" => E::LoadFriction(nature::LoadFriction { ratio: s / 2.0 }),
+        "load_friction" => E::LoadFriction(nature::LoadFriction { ratio: s / 2.0, level: other }),
         "friction_drift" => E::FrictionDrift(nature::FrictionDrift {
             amount: signed,
             tau: sizes.from(0, 5.0, 40.0),
+            level: other,
         }),
         "dwell_stiction" => E::DwellStiction(nature::DwellStiction {
             drop: s * level,
             tau: sizes.from(0, 0.2, 1.5),
+            wear: if other { sizes.from(1, 3.0, 30.0) } else { 1.0 },
         }),
         "presliding" => E::Presliding(nature::Presliding {
             sigma: level / (s * 0.1 * sizes.travel()).max(1e-12),
@@ -197,8 +212,14 @@ fn friction(name: &str, s: f64, sizes: &Sizes) -> Option<HiddenEffect> {
 
 /// A wave for two records in three, a slow change for the third.
 fn position_friction(s: f64, sizes: &Sizes) -> nature::PositionFriction {
-    let none =
-        nature::PositionFriction { sine: 0.0, cosine: 0.0, wavenumber: 0.0, slope: 0.0, q_0: 0.0 };
+    let none = nature::PositionFriction {
+        sine: 0.0,
+        cosine: 0.0,
+        wavenumber: 0.0,
+        slope: 0.0,
+        q_0: 0.0,
+        level: sizes.other,
+    };
     if sizes.shape[2] < 0.33 {
         let q_0 = f64::midpoint(sizes.low, sizes.high);
         return nature::PositionFriction { slope: s * sizes.sign / sizes.travel(), q_0, ..none };
@@ -217,8 +238,9 @@ fn drive(name: &str, s: f64, sizes: &Sizes) -> Option<HiddenEffect> {
         }
         // At the peak of the drive, s of it is lost.
         "torque_saturation" => {
-            let bent = ((1.0 - s).powi(-8) - 1.0).powf(0.125);
-            E::TorqueSaturation(nature::TorqueSaturation { limit: full / bent })
+            let power = if sizes.other { sizes.from(0, 2.0, 8.0) } else { 8.0 };
+            let bent = ((1.0 - s).powf(-power) - 1.0).powf(1.0 / power);
+            E::TorqueSaturation(nature::TorqueSaturation { limit: full / bent, power })
         }
         // A delay is made of whole microseconds.
         "input_delay" => {

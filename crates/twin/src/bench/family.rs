@@ -1,6 +1,6 @@
 //! The plants of the benchmark, with their friction and their sensors.
 
-use super::{DURATION, Hides, RATE, Recipe, between, pick, sign};
+use super::{Between, DURATION, Hides, RATE, Recipe, between, pick, sign};
 use crate::{Controller, Friction, HiddenEffect, Input, Part, PlantKind, Quantity, Scenario};
 use crate::{Sensor, Start};
 use rand_chacha::ChaCha20Rng;
@@ -256,7 +256,8 @@ pub(super) fn scenario(recipe: &Recipe, stream: &mut ChaCha20Rng) -> Scenario {
     let friction = friction(recipe.friction, &size, stream);
     let motion = matches!(family, Family::AxisPd | Family::Prescribed);
     let parts = recipe.excitation.parts(size.drive, motion, stream);
-    let hold = (family != Family::Prescribed).then_some(1.0 / RATE);
+    let held = family != Family::Prescribed && recipe.input != Between::Smooth;
+    let hold = held.then_some(1.0 / RATE);
     let pd = family == Family::AxisPd;
     let gains = Controller::Pd { kp: 10.0, kv: between(15.0, 22.0, stream), limit: 10.0 };
     Scenario {

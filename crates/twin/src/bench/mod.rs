@@ -13,6 +13,7 @@ mod visible;
 
 use crate::{HiddenEffect, Scenario, TwinError};
 pub use excite::Excitation;
+use excite::Excitation as E;
 pub use family::{Family, FrictionKind, Noise};
 use nominal::Wrong;
 use rand::{RngExt, SeedableRng};
@@ -50,6 +51,25 @@ pub struct Recipe {
     pub friction: FrictionKind,
     /// What is hidden.
     pub hides: Hides,
+    /// Its input between samples.
+    #[serde(default)]
+    pub input: Between,
+    /// Whether what is hidden takes the uncommon form of its law, if it has two.
+    #[serde(default)]
+    pub other: bool,
+}
+
+/// The input between samples, and what the rig file says of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Between {
+    /// Held, as the rig file says.
+    #[default]
+    Held,
+    /// Held; the rig file says nothing.
+    Unsaid,
+    /// It goes on as a generator does; the rig file says nothing.
+    Smooth,
 }
 
 /// A parameter that is very wrong in the rig file.
@@ -125,7 +145,7 @@ pub fn case_of(recipe: &Recipe, seed: u64) -> Result<Case, TwinError> {
         }
         Hides::Effects(names) => {
             for name in names {
-                let effect = draw::calibrated(&without, name, (seed, &mut stream))?;
+                let effect = draw::calibrated(&without, name, recipe.other, (seed, &mut stream))?;
                 scenario.hidden.push(effect);
             }
             let foreign = scenario.hidden.iter().any(HiddenEffect::foreign);
@@ -134,7 +154,7 @@ pub fn case_of(recipe: &Recipe, seed: u64) -> Result<Case, TwinError> {
             key.visible = visible::visible(&scenario, &without, seed)?;
         }
     }
-    let (rig, told) = nominal::rig(recipe.family, &without, wrong.as_ref(), &mut stream);
+    let (rig, told) = nominal::rig(recipe, &without, wrong.as_ref(), &mut stream);
     key.parameter = wrong.and_then(|w| {
         let (truth, nominal) =
             (nominal::value(&without, &w.name)?, nominal::value(&told, &w.name)?);
@@ -152,7 +172,17 @@ impl Recipe {
         let excitation = pick(Excitation::ALL, &mut stream);
         let noise = pick(Noise::ALL, &mut stream);
         let friction = pick(family.frictions(), &mut stream);
-        let mut recipe = Self { family, excitation, noise, friction, hides: Hides::Nothing };
+        let smooth = matches!(excitation, E::Sine | E::Multisine | E::Chirp);
+        // Of its own, so that what else is drawn stays what it was.
+        let mut aside = self::stream(seed, 2);
+        let input = match aside.random_range(0..4) {
+            0 | 1 => Between::Held,
+            2 if smooth && family != Family::AxisPd => Between::Smooth,
+            _ => Between::Unsaid,
+        };
+        let other = aside.random();
+        let hides = Hides::Nothing;
+        let mut recipe = Self { family, excitation, noise, friction, hides, input, other };
         let chance: f64 = stream.random();
         if chance < 0.2 {
             return recipe;

@@ -1,6 +1,6 @@
 //! The rig as an analyst is told of it.
 
-use super::{Family, between, pick, sign};
+use super::{Between, Family, Recipe, between, pick, sign};
 use crate::{Controller, Friction, PlantKind, Quantity, Scenario};
 use rand_chacha::ChaCha20Rng;
 
@@ -153,11 +153,12 @@ pub(super) fn free(family: Family, scenario: &Scenario) -> Vec<String> {
 
 /// The rig file's text, and the scenario that it would be right for.
 pub(super) fn rig(
-    family: Family,
+    recipe: &Recipe,
     scenario: &Scenario,
     wrong: Option<&Wrong>,
     stream: &mut ChaCha20Rng,
 ) -> (String, Scenario) {
+    let family = recipe.family;
     let mut told = scenario.clone();
     let names: Vec<String> = places(&mut told).into_iter().map(|(name, _)| name).collect();
     let tied = tied(&scenario.friction);
@@ -181,7 +182,7 @@ pub(super) fn rig(
         scenario.plant.kind(),
         name(&scenario.friction),
         free.join(", "),
-        channels(scenario),
+        channels(scenario, recipe.input == Between::Held),
         controller(scenario)
     );
     (text, told)
@@ -217,7 +218,7 @@ fn name(friction: &Friction) -> &'static str {
     }
 }
 
-fn channels(scenario: &Scenario) -> String {
+fn channels(scenario: &Scenario, said: bool) -> String {
     let imposed = matches!(scenario.plant, PlantKind::Prescribed { .. });
     let line = |sensor: &crate::Sensor| {
         let input = match sensor.quantity {
@@ -231,7 +232,7 @@ fn channels(scenario: &Scenario) -> String {
             }
             _ => String::new(),
         };
-        let hold = if input { ", hold = \"zero-order\"" } else { "" };
+        let hold = if input && said { ", hold = \"zero-order\"" } else { "" };
         format!(
             "{} = {{ column = \"{}\"{quantum}{hold} }}\n",
             sensor.quantity.name(),

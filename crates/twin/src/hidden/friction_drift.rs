@@ -12,6 +12,9 @@ pub struct FrictionDrift {
     pub amount: f64,
     /// Time constant τ [s].
     pub tau: f64,
+    /// Whether the level alone grows at which bristles slip, and not their stiffness.
+    #[serde(default)]
+    pub level: bool,
 }
 
 impl Effect for FrictionDrift {
@@ -30,6 +33,9 @@ impl Effect for FrictionDrift {
         rates[0] = (1.0 - x[0]) / self.tau;
     }
     fn share(&self, _now: &Now, x: &[f64]) -> f64 {
-        self.amount * x[0]
+        if self.level { 0.0 } else { self.amount * x[0] }
+    }
+    fn rise(&self, now: &Now, x: &[f64]) -> f64 {
+        if self.level { now.level * self.amount * x[0] } else { 0.0 }
     }
 }

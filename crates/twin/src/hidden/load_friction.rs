@@ -10,6 +10,9 @@ use serde::{Deserialize, Serialize};
 pub struct LoadFriction {
     /// Growth of F_C for each unit of the drive.
     pub ratio: f64,
+    /// Whether the level alone grows at which bristles slip, and not their stiffness.
+    #[serde(default)]
+    pub level: bool,
 }
 
 impl Effect for LoadFriction {
@@ -22,6 +25,9 @@ impl Effect for LoadFriction {
     }
 
     fn share(&self, now: &Now, _x: &[f64]) -> f64 {
-        self.ratio * now.drive.abs() / now.level
+        if self.level { 0.0 } else { self.ratio * now.drive.abs() / now.level }
+    }
+    fn rise(&self, now: &Now, _x: &[f64]) -> f64 {
+        if self.level { self.ratio * now.drive.abs() } else { 0.0 }
     }
 }

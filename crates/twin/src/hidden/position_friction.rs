@@ -23,6 +23,16 @@ pub struct PositionFriction {
     /// Where the slow change is nothing q₀ [m] or [rad].
     #[serde(default)]
     pub q_0: f64,
+    /// Whether the level alone differs at which bristles slip, and not their stiffness.
+    #[serde(default)]
+    pub level: bool,
+}
+
+impl PositionFriction {
+    fn growth(&self, now: &Now) -> f64 {
+        let (sin, cos) = (self.wavenumber * now.q).sin_cos();
+        self.sine * sin + self.cosine * cos + self.slope * (now.q - self.q_0)
+    }
 }
 
 impl Effect for PositionFriction {
@@ -31,7 +41,9 @@ impl Effect for PositionFriction {
     }
 
     fn share(&self, now: &Now, _x: &[f64]) -> f64 {
-        let (sin, cos) = (self.wavenumber * now.q).sin_cos();
-        self.sine * sin + self.cosine * cos + self.slope * (now.q - self.q_0)
+        if self.level { 0.0 } else { self.growth(now) }
+    }
+    fn rise(&self, now: &Now, _x: &[f64]) -> f64 {
+        if self.level { now.level * self.growth(now) } else { 0.0 }
     }
 }

@@ -101,7 +101,7 @@ fn cubic(k_3: f64, plant: &PlantKind, rig: &Rig) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use twin::bench::{Excitation, Family, FrictionKind, Hides, Noise, Recipe, case_of};
+    use twin::bench::{Between, Excitation, Family, FrictionKind, Hides, Noise, Recipe, case_of};
 
     /// A drum in which a bias or a brush is hidden, and an answer that names it with this value.
     fn answered(name: &str, key: &str, value: f64) -> (Scenario, Discovery) {
@@ -111,6 +111,8 @@ mod tests {
             noise: Noise::Low,
             friction: FrictionKind::LuGre,
             hides: Hides::Effects(vec![name.to_owned()]),
+            input: Between::Held,
+            other: false,
         };
         let case = case_of(&recipe, 11).unwrap();
         let rig = Rig::parse(&case.rig).unwrap();
