@@ -32,6 +32,8 @@ pub(crate) fn loose(rig: &Rig) -> Vec<(String, f64)> {
         "drum" => &["inertia", "k_1", "k_2"],
         "mass-spring" => &["mass", "stiffness"],
         "axis" => &["inertia"],
+        // What a motor's back-EMF brakes with cannot be told from viscous friction, and stands for it.
+        "pendulum" if !is_free(rig, "sigma_2") => &["inertia", "mass", "torque_constant"],
         "pendulum" => &["inertia", "mass"],
         _ => &[],
     };

@@ -140,12 +140,18 @@ impl Walk<'_> {
     fn values(&self, rig: &Rig) -> Result<(Vec<Value>, Vec<String>), FitError> {
         let problem = self.board.problem(&self.best.rig, |_| true)?;
         let gram = Gram::of_rig(&self.board, &self.best, &self.best.rig)?;
-        let all = gram.sum(|_| true);
         let n = gram.nominal;
+        let mut all = gram.sum(|_| true);
+        let variance = self.judged(&self.best.blocks).mean().max(1.0);
+        // What is held near its value is not as uncertain as the record leaves it.
+        for (i, name) in gram.names.iter().enumerate() {
+            if self.board.loose.iter().any(|(loose, _)| loose == name) {
+                all[(i, i)] += gram.prior[i] * variance;
+            }
+        }
         let size: Vec<f64> = (0..n).map(|i| all[(i, i)].max(1e-300).sqrt()).collect();
         let scaled = DMatrix::from_fn(n, n, |i, j| all[(i, j)] / (size[i] * size[j]));
         let inverse = surely(scaled);
-        let variance = self.judged(&self.best.blocks).mean().max(1.0);
         let values = (0..n).map(|i| {
             let value = problem.value(i, &self.best.x);
             let own = problem.free[i].value(self.best.x[i]);

@@ -86,12 +86,14 @@ pub struct Key {
     pub sign: Sign,
     /// The largest plausible size, of its natural one.
     pub most: f64,
+    /// What it is where a rig file does not say it.
+    pub usual: Option<f64>,
 }
 
 impl Key {
     /// An amount of either sign, up to `most` of its natural size.
     pub const fn amount(name: &'static str, measure: Measure, most: f64) -> Self {
-        Self { name, measure, shape: Shape::Amount, sign: Sign::Any, most }
+        Self { name, measure, shape: Shape::Amount, sign: Sign::Any, most, usual: None }
     }
 
     /// An amount that cannot be negative.
@@ -104,9 +106,14 @@ impl Key {
         Self { shape: Shape::Fitted, ..Self::positive(name, measure, 1e3) }
     }
 
-    /// A shape that is probed.
+    /// A shape that is probed, 1 where a rig file does not say it.
     pub const fn probed(name: &'static str, measure: Measure) -> Self {
-        Self { shape: Shape::Probed, ..Self::positive(name, measure, 1e3) }
+        Self { shape: Shape::Probed, usual: Some(1.0), ..Self::positive(name, measure, 1e3) }
+    }
+
+    /// The same, but for what it is where a rig file does not say it [its unit].
+    pub const fn usually(self, value: f64) -> Self {
+        Self { usual: Some(value), ..self }
     }
 
     /// The smallest and the largest value that can be meant whatever the record: a shape is positive, an amount has

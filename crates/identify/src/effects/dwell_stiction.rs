@@ -1,6 +1,6 @@
 //! `dwell_stiction`: The longer a contact rests, the more it takes to break it away.
 
-use super::{About, Act, At, Channel, Key, Law, Measure, family::{rubs}};
+use super::{About, Act, At, Channel, Key, Law, Measure, Past, family::{rubs}};
 use crate::march::Real;
 
 /// The longer a contact rests, the more it takes to break it away.
@@ -11,8 +11,8 @@ impl Law for DwellStiction {
         name: "dwell_stiction",
         physics: "The longer a contact rests, the more it takes to break it away.",
         channel: Channel::Torque,
-        keys: &[Key::positive("drop", Measure::Force, 3.0), Key::fitted("tau", Measure::Time), Key::probed("wear", Measure::One)],
-        probes: |_| [1.0, 10.0].iter().flat_map(|wear| [0.1, 0.5, 2.0].map(|tau| vec![tau, *wear])).collect(),
+        keys: &[Key::positive("drop", Measure::Force, 3.0), Key::fitted("tau", Measure::Time), Key::fitted("wear", Measure::One).usually(1.0)],
+        probes: |c| (if c.memory > 0.0 { [1.0, 10.0] } else { [3.0, 50.0] }).iter().flat_map(|wear| [0.1, 0.5, 2.0].map(|tau| vec![tau, *wear])).collect(),
         applies: rubs,
         confused: &["stribeck", "maxwell_slip"],
         separated_by: "rests of several lengths before the same break-away",
@@ -29,7 +29,7 @@ impl Law for DwellStiction {
         Act::rise(p[0] * z[0])
     }
 
-    fn start<D: Real>(_: &[D], way: f64, _: &[f64]) -> D {
-        D::from(if way == 0.0 { 0.5 } else { 0.0 })
+    fn start<D: Real>(p: &[D], way: f64, past: Past<'_>) -> D {
+        if way == 0.0 { D::from(1.0) - (-(p[1].recip() * past.rested)).exp() } else { D::from(0.0) }
     }
 }

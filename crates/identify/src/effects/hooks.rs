@@ -49,6 +49,22 @@ impl<D: Real> At<'_, D> {
     }
 }
 
+/// What was before a motion.
+#[derive(Debug, Clone, Copy)]
+pub struct Past<'a> {
+    /// Where the displacement has turned [m], without the turns inside larger ones; empty if nobody asked.
+    pub path: &'a [f64],
+    /// For how long it has been at rest [s]; infinite if nobody asked.
+    pub rested: f64,
+}
+
+impl Past<'_> {
+    /// Of what nothing is known: a rest as long as can be.
+    pub fn unknown() -> Self {
+        Self { path: &[], rested: f64::INFINITY }
+    }
+}
+
 /// What an effect adds to the friction F of the model: most add one of these. With zeros in place of what is not there
 /// a motion took a quarter longer, and its derivatives half as long again.
 #[derive(Debug, Clone, Copy)]
@@ -217,8 +233,8 @@ pub trait Law {
         Act::none()
     }
 
-    /// Its states after long sliding in the direction `way`, or at rest if that is 0.
-    fn start<D: Real>(_p: &[D], _way: f64, _path: &[f64]) -> D {
+    /// Its states after long sliding in the direction `way`, or at rest if that is 0, with what was before.
+    fn start<D: Real>(_p: &[D], _way: f64, _past: Past<'_>) -> D {
         D::from(0.0)
     }
 

@@ -1,6 +1,6 @@
 //! `maxwell_slip`: A spring that slips acts beside the friction, and remembers more than the last turn.
 
-use super::{About, Act, At, Channel, Key, Law, Measure};
+use super::{About, Act, At, Channel, Key, Law, Measure, Past};
 use crate::march::Real;
 
 /// A spring that slips acts beside the friction, and remembers more than the last turn.
@@ -26,7 +26,8 @@ impl Law for MaxwellSlip {
         Act::force(p[0] * p[1] * z[0])
     }
 
-    fn start<D: Real>(p: &[D], way: f64, path: &[f64]) -> D {
+    fn start<D: Real>(p: &[D], way: f64, past: Past<'_>) -> D {
+        let path = past.path;
         if path.len() < 2 {
             return D::from(way);
         }

@@ -12,7 +12,7 @@ mod hooks;
 mod joint;
 
 pub use about::{About, Channel, Context, Key, Measure, Shape, Sign};
-pub use hooks::{Act, At, Law, Load, Sense, Term};
+pub use hooks::{Act, At, Law, Load, Past, Sense, Term};
 pub use joint::Joint;
 
 use crate::{Rig, march::Real};
@@ -97,10 +97,10 @@ macro_rules! effects {
                  }
             }
 
-            pub(crate) fn start<D: Real>(self, p: &[D], way: f64, path: &[f64]) -> D {
+            pub(crate) fn start<D: Real>(self, p: &[D], way: f64, past: Past<'_>) -> D {
                 match self {
-                    $(Self::$law => $module::$law::start(p, way, path),)*
-                    $(Self::$hidden => $other::$hidden::start(p, way, path),)*
+                    $(Self::$law => $module::$law::start(p, way, past),)*
+                    $(Self::$hidden => $other::$hidden::start(p, way, past),)*
                  }
             }
 

@@ -11,8 +11,14 @@ impl Law for SublinearDrag {
         name: "sublinear_drag",
         physics: "Friction grows with the speed, and less and less.",
         channel: Channel::Torque,
-        keys: &[Key::positive("c", Measure::Damping, 50.0), Key::fitted("v_0", Measure::Speed)],
-        probes: |c| vec![vec![0.03 * c.speed], vec![0.1 * c.speed], vec![0.3 * c.speed]],
+        // Carreau's law of a lubricant that thins with shear, its power index 1 − bend (Bird, Armstrong and Hassager,
+        // Dynamics of Polymeric Liquids, vol. 1, Wiley 1987, eq. 4.1-9).
+        keys: &[
+            Key::positive("c", Measure::Damping, 50.0),
+            Key::fitted("v_0", Measure::Speed),
+            Key::fitted("bend", Measure::One).usually(1.0),
+        ],
+        probes: |c| [0.03, 0.1, 0.3].map(|s| vec![s * c.speed, 1.0]).to_vec(),
         applies: |_| true,
         confused: &["viscous", "stribeck", "coulomb"],
         separated_by: "slow and fast runs at constant speed",
@@ -21,6 +27,6 @@ impl Law for SublinearDrag {
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
         let s = at.v / p[1];
-        Act::force(p[0] * at.v / (s * s + 1.0).sqrt())
+        Act::force(p[0] * at.v * ((s * s + 1.0).ln() * (p[2] * -0.5)).exp())
     }
 }

@@ -26,7 +26,7 @@ impl Problem<'_> {
     ) -> Start<D> {
         let [q, v, shift, off, faster] = start;
         let way = if window.run_up == 0.0 { 0.0 } else { window.run_up.signum() };
-        let others = model.effects_from(way, &window.path);
+        let others = model.effects_from(way, window.past());
         // By the nominal memory: the answer must not jump where a parameter passes a limit.
         let z = if let Some(z) = model.contact.slipped(&window.path) {
             z

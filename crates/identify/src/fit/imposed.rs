@@ -23,7 +23,7 @@ pub(super) fn forces<D: Real>(
     let viscous = |i: usize| model.sigma_2 * velocity(i) + model.offset;
     let mut z = model.contact.holding(begun(&model.contact, -viscous(0) + seen, velocity(0)));
     let mut direction = 0.0;
-    let mut aged = model.effects_from(0.0, &[]);
+    let mut aged = model.effects_from(0.0, crate::effects::Past::unknown());
     for i in 0..u.len() {
         let mut act = Act::none();
         let dt = if i > 0 { time[i] - time[i - 1] } else { 0.0 };

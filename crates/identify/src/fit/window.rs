@@ -1,6 +1,7 @@
 //! Where a simulated piece of the record begins, and in what state.
 
 use super::{data::Data, whitening::Whitening};
+use crate::effects::Past;
 use std::sync::Arc;
 
 /// A piece of the record that is simulated in one go.
@@ -20,6 +21,8 @@ pub struct Window {
     /// Where the displacement has turned [m] on its way to the window, and its start at last, without the turns inside
     /// larger ones: what a contact that slips can remember. Empty if nobody asked.
     pub path: Vec<f64>,
+    /// For how long the displacement has been at rest before its start [s]; infinite if nobody asked.
+    pub rested: f64,
     /// What makes its residuals independent of each other; none if they are so.
     pub whitening: Option<Arc<Whitening>>,
 }
@@ -54,6 +57,7 @@ impl Window {
             spread: [1.0; START],
             run_up: 0.0,
             path: Vec::new(),
+            rested: f64::INFINITY,
             whitening: None,
         };
         let Some(seen) = &data.displacement else { return none };
@@ -75,8 +79,10 @@ impl Window {
         let wider = bent(time, look) / seen.noise.max(f64::MIN_POSITIVE);
         let wider = if wider > BENT { wider } else { 1.0 };
         let (value, spread) = straight((time, about), look, seen.noise);
+        let rested = rested(data, self.first, 4.0 * seen.noise);
         let mut all = self.seen(data, value, spread.map(|spread| spread * wider));
         all.path = path;
+        all.rested = rested;
         all
     }
 
@@ -101,6 +107,11 @@ impl Window {
             run_up: if v.abs() > MOVING * v_spread { come * same(come, v) } else { 0.0 },
             ..self
         }
+    }
+
+    /// What was before it.
+    pub fn past(&self) -> Past<'_> {
+        Past { path: &self.path, rested: self.rested }
     }
 
     /// How well a parabola fits the samples around sample `i`, in units of their noise [1].
@@ -199,6 +210,14 @@ fn run_up(values: &[f64], dead: f64) -> f64 {
         }
     }
     if last - low > high - last { last - low } else { -(high - last) }
+}
+
+/// For how long the displacement has not been further than `dead` from where it is at sample `i` [s].
+fn rested(data: &Data, i: usize, dead: f64) -> f64 {
+    let Some(seen) = &data.displacement else { return 0.0 };
+    let away = |k: &usize| (seen.values[*k] - seen.values[i]).abs() > dead;
+    let since = (0..i).rev().find(away).unwrap_or(0);
+    data.time[i] - data.time[since]
 }
 
 /// The first value, the turns by more than `dead` that are not inside larger ones that followed, and the last value.

@@ -105,7 +105,7 @@ fn settled(
 /// The states at the first sample: at rest they hold what drives the plant.
 fn start(model: &Model<f64>, drive: &Drive<'_>, measured: &Measured<'_>) -> Vec<f64> {
     let u = inputs(drive, 0, &[measured.q[0]], None)[0];
-    let others = model.effects_from(0.0, &[]);
+    let others = model.effects_from(0.0, crate::effects::Past::unknown());
     let mut z = model.holding((measured.time[0], u), [measured.q[0], measured.v[0]], &others);
     z.extend(others);
     z

@@ -1,7 +1,7 @@
 //! The plant as the march sees it: one equation for all five kinds.
 
 use super::{Contact, Real, run::Tolerance};
-use crate::effects::{Act, At, Sense, Term};
+use crate::effects::{Act, At, Past, Sense, Term};
 
 /// What drives the plant beside friction: T = gain·u + constant − stiffness·q − damping·v − gravity·sin q.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -205,8 +205,8 @@ impl<D: Real> Model<D> {
     }
 
     /// The states of the effects after long sliding in the direction `way`, or at rest if it is 0.
-    pub fn effects_from(&self, way: f64, path: &[f64]) -> Vec<D> {
-        let of = |e: &Term<D>| vec![e.kind.start(&e.p, way, path); e.kind.states()];
+    pub fn effects_from(&self, way: f64, past: Past<'_>) -> Vec<D> {
+        let of = |e: &Term<D>| vec![e.kind.start(&e.p, way, past); e.kind.states()];
         self.effects.iter().flat_map(of).collect()
     }
 

@@ -5,7 +5,6 @@ use super::{
     Channel, Controller, EFFECTS, Effect, Friction, Hold, KINDS, Kind, PlantKey, Rig, RigError,
     Shaft, parameters, units,
 };
-use crate::effects::Shape;
 use duhem::{MODELS, ModelEntry, Parameter, Parameters};
 use std::collections::BTreeMap;
 use toml::de::DeTable;
@@ -374,9 +373,8 @@ fn effects(file: &Table, rig: &Rig) -> Result<Vec<Effect>, RigError> {
         for key in about.keys {
             let unit = about.unit(key.name, rig);
             let expected = parameters::expected(key.bounds(), key.words(), unit);
-            // The form of a law is the first if none is said.
-            if key.shape == Shape::Probed && table.find(key.name).is_none() {
-                values.insert(key.name.to_owned(), 1.0);
+            if let (Some(usual), None) = (key.usual, table.find(key.name)) {
+                values.insert(key.name.to_owned(), usual);
                 continue;
             }
             let item = table.get(key.name, &expected)?;
