@@ -169,6 +169,8 @@ pub struct Context {
     pub turns: bool,
     /// Whether springs or weight pull.
     pub loaded: bool,
+    /// Whether the displacement may be the motor's, with a load hidden beyond it.
+    pub hidden: bool,
     /// The wavenumbers that the record shows most of, in a force and in friction; 0 for none [1/m].
     pub waves: [[f64; 2]; 2],
 }

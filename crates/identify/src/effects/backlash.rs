@@ -1,6 +1,6 @@
 //! `backlash`: The load follows the motor only when a gap is used up.
 
-use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::Joint};
+use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, ENCODER, Joint}};
 use crate::march::Real;
 
 /// The load follows the motor only when a gap is used up.
@@ -21,10 +21,16 @@ impl Law for Backlash {
             Key::fitted("ratio", Measure::One),
             Key::fitted("rubs", Measure::Force),
             Key::fitted("teeth", Measure::Time),
+            ENCODER,
         ],
         probes: |c| {
-            let own = |(ratio, rubs): (f64, f64)| vec![ratio, rubs * c.force, TEETH * c.sample_time];
-            [(0.05, 0.01), (0.05, 0.1), (0.25, 0.01), (0.25, 0.1)].map(own).to_vec()
+            let own = |(ratio, rubs, encoder): (f64, f64, f64)| {
+                vec![ratio, rubs * c.force, TEETH * c.sample_time, encoder]
+            };
+            let load = [(0.05, 0.01), (0.05, 0.1), (0.25, 0.01), (0.25, 0.1)];
+            let motor = [(0.3, 0.01), (0.3, 0.1)].map(|(ratio, rubs)| own((ratio, rubs, AT_MOTOR)));
+            let load = load.map(|(ratio, rubs)| own((ratio, rubs, 1.0)));
+            load.into_iter().chain(motor.into_iter().filter(|_| c.hidden)).collect()
         },
         applies: is_joined,
         confused: &["compliance", "presliding"],

@@ -1,6 +1,6 @@
 //! `compliance`: The gear gives way like a spring between motor and load.
 
-use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::Joint};
+use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, ENCODER, Joint}};
 use crate::march::Real;
 
 /// The gear gives way like a spring between motor and load.
@@ -17,10 +17,12 @@ impl Law for Compliance {
             Key::fitted("ratio", Measure::One),
             Key::fitted("damping", Measure::One),
             Key::fitted("rubs", Measure::Force),
+            ENCODER,
         ],
         probes: |c| {
-            let own = |ratio: f64| vec![ratio, 0.3, 0.01 * c.force];
-            [0.05, 0.25].map(own).to_vec()
+            let own = |(ratio, encoder): (f64, f64)| vec![ratio, 0.3, 0.01 * c.force, encoder];
+            let all = [(0.05, 1.0), (0.25, 1.0), (0.3, AT_MOTOR)].map(own);
+            all.into_iter().filter(|probe| c.hidden || probe[3] != AT_MOTOR).collect()
         },
         applies: is_joined,
         confused: &["tach_gain", "backlash", "velocity_lag"],

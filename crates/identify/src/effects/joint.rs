@@ -7,9 +7,25 @@
 //!
 //! where F is the force of the joint, S that of springs and weight, and φ the load's own friction. Within a stage all
 //! of it is one equation for w with a closed form, so that the motor's velocity stays the only unknown.
+//!
+//! An axis with its encoder on the motor shows the motor's displacement: the load is then seen by its reaction alone.
 
-use super::{Act, At};
+use super::{Act, At, Key, Measure};
 use crate::march::Real;
+
+/// Which of the two the displacement is that is measured: 1 for the load's, 2 for the motor's.
+pub(super) const ENCODER: Key = Key::probed("encoder", Measure::One);
+
+/// Its place among the parameters of a joint.
+const PLACE: usize = 4;
+
+/// The displacement is the motor's.
+pub(super) const AT_MOTOR: f64 = 2.0;
+
+/// Whether a joint with these parameters hides its load behind the motor.
+pub(crate) fn hides_load<D: Real>(p: &[D]) -> bool {
+    p.get(PLACE).is_some_and(|encoder| encoder.re() > 1.5)
+}
 
 /// A joint, and the load beyond it.
 #[derive(Debug, Clone, Copy)]

@@ -14,6 +14,7 @@ mod joint;
 pub use about::{About, Channel, Context, Key, Measure, Shape, Sign};
 pub use hooks::{Act, At, Law, Load, Past, Sense, Term};
 pub use joint::Joint;
+pub(crate) use joint::hides_load;
 
 use crate::{Rig, march::Real};
 use std::ops::RangeInclusive;

@@ -44,9 +44,9 @@ impl Problem<'_> {
         if !self.rig.two_masses() {
             return Start { q, v, z };
         }
-        // The displacement is the load's, a measured velocity the motor's.
-        let [v, load] =
-            if self.data.velocity.is_some() { [v, v - faster] } else { [v + faster, v] };
+        // A measured velocity is the motor's, one from the displacement the load's that is not hidden.
+        let motors = self.data.velocity.is_some() || model.hides_load();
+        let [v, load] = if motors { [v, v - faster] } else { [v + faster, v] };
         let q = model.motor(self.begins(model, window), [q, load], (way, off), &mut z);
         Start { q, v, z }
     }

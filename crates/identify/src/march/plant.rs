@@ -136,12 +136,17 @@ impl<D: Real> Model<D> {
         None
     }
 
-    /// The displacement that is measured [m]: the load's.
-    pub(super) fn displacement(&self, q: D, z: &[D]) -> D {
-        self.joint().map_or(q, |first| z[first])
+    /// Whether the displacement that is measured is the motor's, with a load beyond it.
+    pub(crate) fn hides_load(&self) -> bool {
+        self.effects.iter().any(|e| e.kind.joins(&e.p) && crate::effects::hides_load(&e.p))
     }
 
-    /// The motor's displacement [m] where the load's is `q` with the speed `v`, driven by the input `u` `how`
+    /// The displacement that is measured [m]: the load's, if it is not hidden.
+    pub(super) fn displacement(&self, q: D, z: &[D]) -> D {
+        self.joint().filter(|_| !self.hides_load()).map_or(q, |first| z[first])
+    }
+
+    /// The motor's displacement [m] where the one that is measured is `q`, the load's speed `v`, driven by the input `u` `how`
     /// [`Joint::ahead`](crate::effects::Joint::ahead) has it; the load's own goes to the states `z`.
     pub(crate) fn motor(&self, u: D, [q, v]: [D; 2], how: (f64, D), z: &mut [D]) -> D {
         let Some(first) = self.joint() else { return q };
@@ -149,7 +154,12 @@ impl<D: Real> Model<D> {
         let stage = Stage::of(self, [0.0, 0.0], u);
         let at = self.at(&stage, [q, v], &z[..self.contact.states()]);
         let joint = self.effects.iter().find_map(|e| e.kind.joint(&e.p, &at));
-        joint.map_or(q, |joint| q + joint.ahead(&at, how))
+        let ahead = joint.map_or(D::from(0.0), |joint| joint.ahead(&at, how));
+        if self.hides_load() {
+            z[first] = q - ahead;
+            return q;
+        }
+        q + ahead
     }
 
     /// What the effects add to the friction, all together.
