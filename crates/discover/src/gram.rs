@@ -82,7 +82,7 @@ fn valued(kind: Kind, probe: &[f64], amount: impl Fn(&Key) -> f64) -> Vec<f64> {
     let mut shapes = probe.iter().copied();
     let value = |key: &Key| match key.shape {
         Shape::Amount => amount(key),
-        _ => shapes.next().unwrap_or(1.0),
+        _ => shapes.next().unwrap_or(key.usual.unwrap_or(1.0)),
     };
     kind.about().keys.iter().map(value).collect()
 }

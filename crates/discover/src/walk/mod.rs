@@ -8,6 +8,7 @@ mod made;
 mod named;
 mod places;
 mod polish;
+mod springs;
 mod strayed;
 mod waves;
 
@@ -272,6 +273,7 @@ impl Walk<'_> {
             if !self.lasts(before) {
                 break;
             }
+            self.more_springs(options.seed)?;
             self.reclaim()?;
             self.hold_strayed(options.seed)?;
             self.origin = self.beside_given()?;

@@ -68,6 +68,8 @@ pub enum Shape {
     Fitted,
     /// What it is like, probed at a few values and then kept.
     Probed,
+    /// What more of the same is like: as usual until it is asked for, and then fitted.
+    Spare,
 }
 
 /// No number in a rig file is larger, nor smaller than one over it.
@@ -111,6 +113,11 @@ impl Key {
         Self { shape: Shape::Probed, usual: Some(1.0), ..Self::positive(name, measure, 1e3) }
     }
 
+    /// A shape of more of the same, which is `usual` until it is asked for.
+    pub const fn spare(name: &'static str, measure: Measure, usual: f64) -> Self {
+        Self { shape: Shape::Spare, ..Self::fitted(name, measure).usually(usual) }
+    }
+
     /// The same, but for what it is where a rig file does not say it [its unit].
     pub const fn usually(self, value: f64) -> Self {
         Self { usual: Some(value), ..self }
@@ -122,7 +129,7 @@ impl Key {
         let pure = self.measure == Measure::One && self.shape == Shape::Amount;
         let most = if pure { self.most } else { LARGEST };
         match (self.shape, self.sign) {
-            (Shape::Fitted | Shape::Probed, _) => (1.0 / LARGEST, LARGEST),
+            (Shape::Fitted | Shape::Probed | Shape::Spare, _) => (1.0 / LARGEST, LARGEST),
             (Shape::Amount, Sign::Any) => (-most, most),
             (Shape::Amount, Sign::Positive) => (0.0, most),
             (Shape::Amount, Sign::Negative) => (-most, 0.0),
@@ -132,7 +139,7 @@ impl Key {
     /// What the bounds leave, in words.
     pub(crate) fn words(&self) -> &'static str {
         match (self.shape, self.sign) {
-            (Shape::Fitted | Shape::Probed, _) => "a positive, finite number",
+            (Shape::Fitted | Shape::Probed | Shape::Spare, _) => "a positive, finite number",
             (Shape::Amount, Sign::Any) => "a finite number",
             (Shape::Amount, Sign::Positive) => "a finite number, zero or more",
             (Shape::Amount, Sign::Negative) => "a finite number, zero or less",

@@ -29,7 +29,7 @@ impl Law for DwellStiction {
         Act::rise(p[0] * z[0])
     }
 
-    fn start<D: Real>(p: &[D], way: f64, past: Past<'_>) -> D {
+    fn start<D: Real>(p: &[D], _: usize, (way, past): (f64, Past<'_>)) -> D {
         if way == 0.0 { D::from(1.0) - (-(p[1].recip() * past.rested)).exp() } else { D::from(0.0) }
     }
 }

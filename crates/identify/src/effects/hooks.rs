@@ -49,19 +49,22 @@ impl<D: Real> At<'_, D> {
     }
 }
 
+/// A rest beside which every other is short [s].
+pub const LONG: f64 = 1e9;
+
 /// What was before a motion.
 #[derive(Debug, Clone, Copy)]
 pub struct Past<'a> {
     /// Where the displacement has turned [m], without the turns inside larger ones; empty if nobody asked.
     pub path: &'a [f64],
-    /// For how long it has been at rest [s]; infinite if nobody asked.
+    /// For how long it has been at rest [s].
     pub rested: f64,
 }
 
 impl Past<'_> {
     /// Of what nothing is known: a rest as long as can be.
     pub fn unknown() -> Self {
-        Self { path: &[], rested: f64::INFINITY }
+        Self { path: &[], rested: LONG }
     }
 }
 
@@ -233,8 +236,8 @@ pub trait Law {
         Act::none()
     }
 
-    /// Its states after long sliding in the direction `way`, or at rest if that is 0, with what was before.
-    fn start<D: Real>(_p: &[D], _way: f64, _past: Past<'_>) -> D {
+    /// Its state number `place` after long sliding in the direction `way`, or at rest if that is 0, with what was before.
+    fn start<D: Real>(_p: &[D], _place: usize, (_way, _past): (f64, Past<'_>)) -> D {
         D::from(0.0)
     }
 

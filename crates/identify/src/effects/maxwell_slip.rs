@@ -1,39 +1,66 @@
-//! `maxwell_slip`: A spring that slips acts beside the friction, and remembers more than the last turn.
+//! `maxwell_slip`: Springs that slip act beside the friction, and remember more than the last turn.
 
 use super::{About, Act, At, Channel, Key, Law, Measure, Past};
 use crate::march::Real;
 
-/// A spring that slips acts beside the friction, and remembers more than the last turn.
+/// Springs that slip act beside the friction, and remember more than the last turn.
 pub(super) struct MaxwellSlip;
 
 impl Law for MaxwellSlip {
     const ABOUT: About = About {
         name: "maxwell_slip",
-        physics: "A spring that slips acts beside the friction, and remembers more than the last turn.",
+        physics: "Springs that slip act beside the friction, and remember more than the last turn.",
         channel: Channel::Torque,
-        keys: &[Key::positive("k", Measure::Stiffness, 1e4), Key::fitted("delta", Measure::Length)],
+        // Of the second and the third spring the stiffness is a share of the first one's.
+        keys: &[
+            Key::positive("k", Measure::Stiffness, 1e4),
+            Key::fitted("delta", Measure::Length),
+            Key::spare("share_2", Measure::One, NO_SPRING),
+            Key::spare("delta_2", Measure::Length, 1.0),
+            Key::spare("share_3", Measure::One, NO_SPRING),
+            Key::spare("delta_3", Measure::Length, 1.0),
+        ],
         probes: |c| [0.003, 0.01, 0.03, 0.1, 0.3].iter().map(|s| vec![s * c.span]).collect(),
         applies: |_| true,
         confused: &["stribeck", "cubic_spring", "position_friction"],
         separated_by: "small loops inside a large one",
         test: 0.1,
     };
-    const STATES: usize = 1;
+    const STATES: usize = SPRINGS;
 
     fn act<D: Real>(p: &[D], at: &At<D>, base: &[D], z: &mut [D]) -> Act<D> {
         // The state is the deflection in deadbands, so that it has a size when there is no effect.
-        z[0] = within(base[0] + at.v * at.dt / p[1]);
-        Act::force(p[0] * p[1] * z[0])
+        let mut force = D::from(0.0);
+        for i in 0..SPRINGS {
+            let (share, delta) = spring(p, i);
+            if share.re() > NO_SPRING {
+                z[i] = within(base[i] + at.v * at.dt / delta);
+                force += p[0] * share * delta * z[i];
+            }
+        }
+        Act::force(force)
     }
 
-    fn start<D: Real>(p: &[D], way: f64, past: Past<'_>) -> D {
+    fn start<D: Real>(p: &[D], place: usize, (way, past): (f64, Past<'_>)) -> D {
         let path = past.path;
         if path.len() < 2 {
             return D::from(way);
         }
-        let moved = |z: D, step: &[f64]| within(z + p[1].recip() * (step[1] - step[0]));
+        let delta = spring(p, place).1;
+        let moved = |z: D, step: &[f64]| within(z + delta.recip() * (step[1] - step[0]));
         path.windows(2).fold(D::from(0.0), moved)
     }
+}
+
+/// How many springs there can be.
+const SPRINGS: usize = 3;
+
+/// The share of a spring that is not there [1].
+const NO_SPRING: f64 = 1e-30;
+
+/// The stiffness of a spring as a share of the first one's, and its deadband [1, m].
+fn spring<D: Real>(p: &[D], place: usize) -> (D, D) {
+    if place == 0 { (D::from(1.0), p[1]) } else { (p[2 * place], p[2 * place + 1]) }
 }
 
 /// A deflection of no more than one deadband.

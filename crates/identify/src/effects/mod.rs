@@ -12,7 +12,7 @@ mod hooks;
 mod joint;
 
 pub use about::{About, Channel, Context, Key, Measure, Shape, Sign};
-pub use hooks::{Act, At, Law, Load, Past, Sense, Term};
+pub use hooks::{Act, At, LONG, Law, Load, Past, Sense, Term};
 pub use joint::Joint;
 pub(crate) use joint::hides_load;
 
@@ -98,10 +98,10 @@ macro_rules! effects {
                  }
             }
 
-            pub(crate) fn start<D: Real>(self, p: &[D], way: f64, past: Past<'_>) -> D {
+            pub(crate) fn start<D: Real>(self, p: &[D], place: usize, (way, past): (f64, Past<'_>)) -> D {
                 match self {
-                    $(Self::$law => $module::$law::start(p, way, past),)*
-                    $(Self::$hidden => $other::$hidden::start(p, way, past),)*
+                    $(Self::$law => $module::$law::start(p, place, (way, past)),)*
+                    $(Self::$hidden => $other::$hidden::start(p, place, (way, past)),)*
                  }
             }
 

@@ -1,7 +1,7 @@
 //! Where a simulated piece of the record begins, and in what state.
 
 use super::{data::Data, whitening::Whitening};
-use crate::effects::Past;
+use crate::effects::{LONG, Past};
 use std::sync::Arc;
 
 /// A piece of the record that is simulated in one go.
@@ -21,7 +21,7 @@ pub struct Window {
     /// Where the displacement has turned [m] on its way to the window, and its start at last, without the turns inside
     /// larger ones: what a contact that slips can remember. Empty if nobody asked.
     pub path: Vec<f64>,
-    /// For how long the displacement has been at rest before its start [s]; infinite if nobody asked.
+    /// For how long the displacement has been at rest before its start [s]; [`LONG`] if nobody asked.
     pub rested: f64,
     /// What makes its residuals independent of each other; none if they are so.
     pub whitening: Option<Arc<Whitening>>,
@@ -57,7 +57,7 @@ impl Window {
             spread: [1.0; START],
             run_up: 0.0,
             path: Vec::new(),
-            rested: f64::INFINITY,
+            rested: LONG,
             whitening: None,
         };
         let Some(seen) = &data.displacement else { return none };

@@ -216,7 +216,9 @@ impl<D: Real> Model<D> {
 
     /// The states of the effects after long sliding in the direction `way`, or at rest if it is 0.
     pub fn effects_from(&self, way: f64, past: Past<'_>) -> Vec<D> {
-        let of = |e: &Term<D>| vec![e.kind.start(&e.p, way, past); e.kind.states()];
+        let of = |e: &'_ Term<D>| -> Vec<D> {
+            (0..e.kind.states()).map(|i| e.kind.start(&e.p, i, (way, past))).collect()
+        };
         self.effects.iter().flat_map(of).collect()
     }
 

@@ -1,0 +1,61 @@
+//! More springs that slip, where one was found and does not do.
+
+use super::{ABOVE, FIRST, Walk, settled};
+use crate::board::Fitted;
+use identify::{
+    Rig,
+    fit::{FitError, binding},
+};
+
+/// The effect, and its springs beyond the first.
+const NAME: &str = "maxwell_slip";
+const MORE: [usize; 2] = [2, 3];
+
+/// A further spring slips so many times as late as the first, and as hard.
+const LATER: [f64; 4] = [0.1, 0.3, 3.0, 10.0];
+const HARD: f64 = 0.3;
+
+/// It must lower the level to so much of what it was.
+const LOWER: f64 = 0.9;
+
+impl Walk<'_> {
+    /// Gives springs that slip one more, and then another, for as long as the model comes much nearer with it.
+    pub(super) fn more_springs(&mut self, seed: u64) -> Result<(), FitError> {
+        for number in MORE {
+            let level = |walk: &Self| walk.judged(&walk.best.blocks).level();
+            let now = level(self);
+            let rig = &self.best.rig;
+            if now < ABOVE || !rig.effects.iter().any(|effect| effect.name == NAME) {
+                break;
+            }
+            let all = LATER.map(|later| with(rig, number, later));
+            let fitted = all.iter().filter_map(|rig| self.board.fit(rig, None, &FIRST).ok());
+            let near = |fitted: &Fitted| self.judged(&fitted.blocks).level();
+            let Some(best) = fitted.min_by(|a, b| near(a).total_cmp(&near(b))) else { break };
+            if near(&best) > LOWER * now {
+                break;
+            }
+            let before = (self.board.clone(), self.best.clone());
+            self.best = settled(&mut self.board, best, seed)?;
+            if level(self) > LOWER * now {
+                (self.board, self.best) = before;
+                break;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// `rig` with a spring more, which slips `later` than the first.
+fn with(rig: &Rig, number: usize, later: f64) -> Rig {
+    let mut with = rig.clone();
+    let delta = rig.value(&format!("{NAME}.delta")).unwrap_or(1.0);
+    for (key, value) in [("share", HARD / later), ("delta", delta * later)] {
+        let name = format!("{NAME}.{key}_{number}");
+        binding::set(&mut with, &name, value);
+        if !with.free.contains(&name) {
+            with.free.push(name);
+        }
+    }
+    with
+}
