@@ -9,7 +9,7 @@ use identify::{
 
 /// The effect, and its springs beyond the first.
 const NAME: &str = "maxwell_slip";
-const MORE: [usize; 2] = [2, 3];
+const MORE: [usize; 3] = [2, 3, 4];
 
 /// A further spring slips so many times as late as the first, and as hard.
 const LATER: [f64; 4] = [0.1, 0.3, 3.0, 10.0];
@@ -25,6 +25,9 @@ impl Walk<'_> {
             let level = |walk: &Self| walk.judged(&walk.best.blocks).level();
             let now = level(self);
             let rig = &self.best.rig;
+            if rig.free.contains(&format!("{NAME}.share_{number}")) {
+                continue;
+            }
             if now < ABOVE || !rig.effects.iter().any(|effect| effect.name == NAME) {
                 break;
             }

@@ -11,7 +11,7 @@ impl Law for MaxwellSlip {
         name: "maxwell_slip",
         physics: "Springs that slip act beside the friction, and remember more than the last turn.",
         channel: Channel::Torque,
-        // Of the second and the third spring the stiffness is a share of the first one's.
+        // Of every further spring the stiffness is a share of the first one's.
         keys: &[
             Key::positive("k", Measure::Stiffness, 1e4),
             Key::fitted("delta", Measure::Length),
@@ -19,6 +19,8 @@ impl Law for MaxwellSlip {
             Key::spare("delta_2", Measure::Length, 1.0),
             Key::spare("share_3", Measure::One, NO_SPRING),
             Key::spare("delta_3", Measure::Length, 1.0),
+            Key::spare("share_4", Measure::One, NO_SPRING),
+            Key::spare("delta_4", Measure::Length, 1.0),
         ],
         probes: |c| [0.003, 0.01, 0.03, 0.1, 0.3].iter().map(|s| vec![s * c.span]).collect(),
         applies: |_| true,
@@ -53,7 +55,7 @@ impl Law for MaxwellSlip {
 }
 
 /// How many springs there can be.
-const SPRINGS: usize = 3;
+const SPRINGS: usize = 4;
 
 /// The share of a spring that is not there [1].
 const NO_SPRING: f64 = 1e-30;
