@@ -5,6 +5,7 @@ use crate::{
     model::Candidate,
     verdict::{Found, name},
 };
+use identify::effects::{Key, Shape};
 
 /// An effect is taken if it is better on the judging blocks by so many standard errors.
 pub(super) const SURE: f64 = 3.0;
@@ -85,7 +86,8 @@ pub(super) fn found<'r>(
     let no_worse = |r: &&&Rated| {
         r.judged.against(&best.judged) < UNSURE || r.judged.gained(&best.judged) < LEAST
     };
-    let keys = |r: &&&Rated| r.candidate.kind.about().keys.len();
+    let fitted = |key: &&Key| matches!(key.shape, Shape::Amount | Shape::Fitted);
+    let keys = |r: &&&Rated| r.candidate.kind.about().keys.iter().filter(fitted).count();
     let named = alike.iter().filter(no_worse).min_by_key(keys).unwrap_or(&best);
     let others = alike.iter().map(|r| r.name()).filter(|other| *other != named.name());
     let set: Vec<&'static str> = [named.name()].into_iter().chain(others).collect();
