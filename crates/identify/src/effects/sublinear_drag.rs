@@ -26,7 +26,9 @@ impl Law for SublinearDrag {
     };
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
+        // What falls again in faster motion is another effect.
+        let bend = if p[2].re() > 1.0 { D::from(1.0) } else { p[2] };
         let s = at.v / p[1];
-        Act::force(p[0] * at.v * ((s * s + 1.0).ln() * (p[2] * -0.5)).exp())
+        Act::force(p[0] * at.v * ((s * s + 1.0).ln() * (bend * -0.5)).exp())
     }
 }
