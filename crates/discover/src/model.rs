@@ -213,7 +213,7 @@ pub(crate) fn context(board: &Board<'_>, fitted: &Fitted) -> Context {
         sample_time: data.sample_time(),
         mass: model.balance.mass,
         turns: identify::rig::Kind::of(rig.kind).is_some_and(identify::rig::Kind::turns),
-        hidden: rig.kind == "axis" || rig.kind == "pendulum",
+        hidden: rig.kind == "axis",
         loaded: model.balance.stiffness != 0.0 || model.balance.gravity != 0.0,
         waves: [[0.0; 2]; 2],
     }
