@@ -21,6 +21,7 @@ fn driven(plant: &Plant, contact: Contact<f64>, sigma_2: f64) -> Model<f64> {
         stiffness: plant.stiffness,
         damping: 0.0,
         gravity: 0.0,
+        cables: [[0.0; 2]; 2],
     };
     Model { balance, contact, sigma_2, offset: 0.0, radius: 1.0, effects: Vec::new() }
 }

@@ -1,7 +1,13 @@
 //! Whether an effect that was found first is still the one beside those found after it.
 
-use super::{REFIT, Walk};
-use crate::verdict::{Found, Options};
+use super::{
+    REFIT, Walk,
+    named::{LEAST, UNSURE},
+};
+use crate::{
+    decide::Judged,
+    verdict::{Found, Options},
+};
 use identify::{
     effects::Context,
     fit::{FitError, starts},
@@ -29,7 +35,7 @@ impl Walk<'_> {
             self.ranking.truncate(ranked);
             let [then, now] = [&before, &self.best].map(|f| self.judged(&f.blocks));
             match again {
-                Some(found) if found.name != name && now.against(&then) < super::named::UNSURE => {
+                Some(found) if found.name != name && as_near(&now, &then) => {
                     effects[place] = found;
                 }
                 Some(found) if found.name == name => {
@@ -42,4 +48,9 @@ impl Walk<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether a model with another effect is not surely worse than the last one, or by no more than what is worth no name.
+fn as_near(now: &Judged, then: &Judged) -> bool {
+    now.against(then) < UNSURE || now.gained(then) < LEAST
 }
