@@ -296,6 +296,35 @@ fn a_play_that_the_parameters_take_up_in_part_is_found_from_some_of_its_beginnin
     }
 }
 
+/// Four springs that slip, where the rig file has a Dahl model: found one after the other, as many as the record shows.
+#[test]
+fn springs_that_slip_are_found_one_after_the_other() {
+    let recipe = Recipe {
+        family: Family::Prescribed,
+        excitation: Excitation::Multisine,
+        noise: Noise::Middle,
+        friction: FrictionKind::MaxwellSlip,
+        hides: Hides::Nothing,
+        input: Between::Held,
+        other: false,
+    };
+    let (case, _, data) = made(&recipe, 4, LONG);
+    let twin::Friction::MaxwellSlip { k, delta, .. } = &case.scenario.friction else { panic!() };
+    let f_c: f64 = k.iter().zip(delta).map(|(k, delta)| k * delta).sum();
+    let sigma: f64 = k.iter().sum();
+    let other = |line: &str| match line.split(' ').next() {
+        Some("k" | "delta") => String::new(),
+        Some("name") => format!("name = \"dahl\"\nf_c = {f_c}\nsigma = {sigma}\ngamma = 1.0\n"),
+        Some("free") => "free = [\"f_c\", \"sigma\", \"sigma_2\"]\n".to_owned(),
+        _ => format!("{line}\n"),
+    };
+    let rig = Rig::parse(&case.rig.lines().map(other).collect::<String>()).expect("a rig");
+    let answer = discover(&rig, &data, &Options::default()).expect("an answer");
+    let first = answer.effects.first().expect("an effect");
+    assert_eq!((answer.verdict.name(), first.name), ("effect", "maxwell_slip"));
+    assert!(answer.rig.value("maxwell_slip.share_2").is_some_and(|share| share > 0.01));
+}
+
 // In four parts, which run side by side.
 
 #[test]

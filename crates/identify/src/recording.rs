@@ -68,9 +68,6 @@ pub(crate) const FEWEST_ROWS: usize = 8;
 /// The largest sample of any channel [SI]: what is above is a wrong unit or no measurement.
 pub(crate) const LARGEST: f64 = 1e15;
 
-/// What has less noise than so many of the steps that are said of it does not move in them.
-const SMOOTH: f64 = 0.1;
-
 /// A step of the clock so many times the usual one is a gap.
 pub(crate) const GAP: f64 = 1.5;
 
@@ -150,11 +147,8 @@ pub(crate) fn stated_step(
     let stated = channel.quantum?;
     let (si, own) = (stated / gear(rig, channel).abs(), stated * factor.abs());
     let off = |step: f64, seen: f64| (step / seen).ln().abs();
-    let in_column = match crate::doctor::quantum(values) {
-        Some(seen) => off(own, seen) < off(si, seen),
-        // Steps would have left 0.29 of one as noise.
-        None => crate::doctor::noise(values) < SMOOTH * si && own < si,
-    };
+    let in_column = |seen: f64| off(own, seen) < off(si, seen);
+    let in_column = crate::doctor::quantum(values).is_some_and(in_column);
     Some(if in_column { own } else { si })
 }
 

@@ -360,3 +360,21 @@ fn a_channel_in_another_unit_or_at_the_motor_is_the_same_in_the_recording() {
     );
     assert!(look(&motor, &turned).findings.is_empty());
 }
+
+#[test]
+fn a_step_in_the_columns_own_unit_is_taken_for_that_where_the_samples_move_so() {
+    let rig = rig_of("drum", "lugre");
+    let mut made = record(&rig);
+    let degrees = |q: f64| (q.to_degrees() / 0.01).round() * 0.01;
+    made.of("angle").iter_mut().for_each(|q| *q = degrees(*q));
+    for (written, found) in
+        [(0.01, 0.01_f64.to_radians()), (0.01_f64.to_radians(), 0.01_f64.to_radians())]
+    {
+        let mut rig = rig.clone();
+        let channel = rig.channels.get_mut("angle").expect("an angle");
+        (channel.unit, channel.quantum) = (Some("deg".to_owned()), Some(written));
+        let recording = Recording::new(&rig, &|name| made.column(name)).expect("a record");
+        let quantum = recording.quantum["angle"];
+        assert!((quantum / found - 1.0).abs() < 1e-9, "{written}: {quantum} rad for {found} rad");
+    }
+}

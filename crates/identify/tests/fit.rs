@@ -241,3 +241,31 @@ fn a_record_without_a_motion_or_with_nothing_free_is_refused() {
     let none = Rig { free: Vec::new(), ..rig("name = \"none\"", "") };
     assert_eq!(fit(&none, &record(&truth, 6.0, 3), &quick()).err(), Some(FitError::NothingFree));
 }
+
+#[test]
+fn when_an_input_jumped_between_two_samples_is_not_held_against_a_model() {
+    let truth = rig("name = \"coulomb\"\nf_c = 2.0\nsigma_2 = 0.5", "\"f_c\"");
+    let data = held(&truth, Hold::Linear, (20.0, 7));
+    let mut jumped = data.clone();
+    let from = data.input[140];
+    for (i, u) in jumped.input.iter_mut().enumerate() {
+        *u = if i < 150 { from } else { from + 50.0 };
+    }
+    let whitened = |data: &Data, noise: f64| {
+        let problem = Problem::unfree(&truth, data).expect("a problem");
+        let window = Window::new(data, 145, 155);
+        let piece = problem.piece(&[], &window, window.start);
+        problem.whitening(&[], (&window, &piece), noise)
+    };
+    assert!(
+        whitened(&jumped, 0.0).is_some(),
+        "it jumps, and goes on straight from sample to sample"
+    );
+    let held = Data { hold: Hold::ZeroOrder, ..jumped.clone() };
+    assert!(whitened(&held, 0.0).is_none(), "what is held jumps at its sample");
+    let mut smooth = jumped.clone();
+    for (i, u) in smooth.input.iter_mut().enumerate() {
+        *u = 0.1 * i as f64;
+    }
+    assert!(whitened(&smooth, 0.0).is_none(), "what rises steadily does not jump");
+}

@@ -162,3 +162,21 @@ fn the_derivatives_of_a_motion_with_a_joint_are_those_of_its_differences() {
         }
     }
 }
+
+#[test]
+fn an_encoder_on_the_motor_shows_the_motor_and_hides_the_load() {
+    let (compliance, ahead) = (4e-4, 1e-3);
+    let joint =
+        format!("name = \"compliance\"\ncompliance = {compliance}\ndamping = 0.1\nrubs = 1e-12");
+    let time = times(400);
+    let [load, motor] = [1, 2].map(|encoder| {
+        moved(&rig(&format!("{joint}\nencoder = {encoder}")), (ahead, 0.0), &time, 0.0)
+    });
+    let (motors, loads) = masses();
+    assert_eq!((load.q[0], motor.q[0]), (0.0, ahead));
+    for ((load, motor), v) in load.q.iter().zip(&motor.q).zip(&motor.v) {
+        // Nothing pushes: the middle of both masses stays where it is.
+        let middle = (motors * motor + loads * load) / MASS;
+        assert!((middle - motors * ahead / MASS).abs() < 1e-6 * ahead, "{middle} m at {v} m/s");
+    }
+}

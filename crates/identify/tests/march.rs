@@ -169,3 +169,23 @@ fn a_held_force_that_comes_late_moves_a_mass_as_its_own_steps_do() {
         assert_eq!(later.q.len(), time.len() - first);
     }
 }
+
+#[test]
+fn a_drum_is_pulled_by_the_cables_that_are_taut_alone() {
+    let text = "title = \"t\"\n[plant]\nkind = \"drum\"\ninertia = 1e-3\nradius = 0.1\nk_1 = 3.0\nk_2 = 5.0\n\
+        f_10 = 0.2\nf_20 = 0.1\nmotor_constant = 1.0\ngear_ratio = 1.0\n[friction]\nname = \"none\"\n[channels]\n\
+        time = \"t\"\ncurrent = \"i\"\nangle = \"q\"\n[[effect]]\nname = \"cable_slack\"\namount = 1.0\n";
+    let rig = identify::Rig::parse(text).expect("a rig");
+    let model = binding::model::<f64>(&rig, &|_| None);
+    for q in [-1.0, -0.5, 0.0, 0.1, 1.0] {
+        let (one, other): (f64, f64) = (0.2 + 3.0 * 0.1 * q, 0.1 - 5.0 * 0.1 * q);
+        let pull = 0.1 * (one.max(0.0) - other.max(0.0));
+        let moved = go(&model, &[0.0, 0.0], &[0.0, 1e-4], (q, 1e-12));
+        let expected = -pull / 1e-3 * 1e-4;
+        assert!(
+            (moved.v[1] - expected).abs() < 1e-4 * expected.abs() + 1e-9,
+            "{q} rad: {} for {expected} rad/s",
+            moved.v[1]
+        );
+    }
+}

@@ -338,3 +338,25 @@ fn every_kind_has_time_first_and_names_channels_that_it_has() {
         }
     }
 }
+
+#[test]
+fn who_names_an_element_0_counts_from_there() {
+    let free = |names: &str| {
+        let text = SLIP.replace("[\"k\", \"delta[2]\", \"offset\", \"gain\"]", names);
+        Rig::parse(&text).map(|rig| rig.free_parameters())
+    };
+    assert_eq!(free("[\"k[0]\", \"delta[2]\"]").unwrap(), ["k[1]", "delta[3]"]);
+    assert_eq!(free("[\"k[1]\", \"delta[2]\"]").unwrap(), ["k[1]", "delta[2]"]);
+    assert!(free("[\"k[0]\", \"k[3]\"]").is_err(), "there are three");
+}
+
+#[test]
+fn what_a_law_usually_is_need_not_be_said() {
+    let with = |effect: &str| rig(&format!("{SLIP}[[effect]]\n{effect}\n"));
+    let drag = with("name = \"sublinear_drag\"\nc = 1.0\nv_0 = 0.1");
+    assert_eq!(drag.value("sublinear_drag.bend"), Some(1.0));
+    let stribeck = with("name = \"stribeck\"\ndrop = 1.0\nv_s = 0.1");
+    assert_eq!(stribeck.value("stribeck.form"), Some(1.0));
+    let said = refused(&format!("{SLIP}[[effect]]\nname = \"stribeck\"\ndrop = 1.0\n"));
+    assert!(said.contains("v_s"), "{said}");
+}

@@ -76,3 +76,30 @@ impl Board<'_> {
         self.loose.iter().filter(away).map(|(name, _)| name.clone()).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::loose;
+    use identify::Rig;
+
+    fn names(plant: &str, channels: &str, free: &str) -> Vec<String> {
+        let text = format!(
+            "title = \"t\"\n[plant]\n{plant}[friction]\nname = \"coulomb\"\nf_c = 1.0\n\
+             [fit]\nfree = [{free}]\n[channels]\ntime = \"t\"\n{channels}"
+        );
+        loose(&Rig::parse(&text).unwrap()).into_iter().map(|(name, _)| name).collect()
+    }
+
+    #[test]
+    fn one_scale_of_forces_stays_as_it_is() {
+        let axis = "kind = \"axis\"\ninertia = 1.0\ngain = 2.0\n";
+        let channels = "voltage = \"u\"\nposition = \"q\"\n";
+        assert_eq!(names(axis, channels, "\"f_c\""), ["inertia"]);
+        assert!(names(axis, channels, "\"f_c\", \"gain\"").is_empty(), "the inertia is the scale");
+        let pendulum = "kind = \"pendulum\"\ninertia = 1.0\nmass = 1.0\nlength = 0.1\ntorque_constant = 0.1\nresistance = 1.0\n";
+        let channels = "voltage = \"u\"\nangle = \"q\"\n";
+        // The back-EMF stands for viscous friction where none is free.
+        assert_eq!(names(pendulum, channels, "\"mass\""), ["inertia", "torque_constant"]);
+        assert_eq!(names(pendulum, channels, "\"mass\", \"sigma_2\""), ["inertia"]);
+    }
+}

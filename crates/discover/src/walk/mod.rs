@@ -346,9 +346,9 @@ impl Walk<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::Verdict;
     use super::{Discovery, simpler};
     use crate::walk::made;
-    use super::Verdict;
 
     /// An answer with so many effects that leaves so much.
     fn answer(effects: usize, left: f64) -> Discovery {
@@ -368,6 +368,20 @@ mod tests {
             hold: None,
             rig,
         }
+    }
+
+    #[test]
+    fn the_other_way_between_samples_is_tried_where_the_record_may_speak_for_it() {
+        use super::{Hold, hold::Told, other_hold};
+        let found = |verdict: Verdict| Discovery { verdict, ..answer(1, 1.0) };
+        let told = |hold: Hold, sure: bool| Some(Told { hold, sure });
+        let (line, step) = (Hold::Linear, Hold::ZeroOrder);
+        let effect = found(Verdict::Effect);
+        assert_eq!(other_hold(&effect, line, told(step, true)), Some(step), "it says so");
+        assert_eq!(other_hold(&effect, line, told(line, false)), Some(step), "it is not sure");
+        assert_eq!(other_hold(&effect, step, told(step, true)), None);
+        let nothing = found(Verdict::NothingMissing);
+        assert_eq!(other_hold(&nothing, line, told(line, false)), None, "nothing asks for it");
     }
 
     #[test]

@@ -62,3 +62,33 @@ fn with(rig: &Rig, number: usize, later: f64) -> Rig {
     }
     with
 }
+
+#[cfg(test)]
+mod tests {
+    use super::with;
+    use crate::walk::made;
+    use identify::effects::Kind;
+
+    #[test]
+    fn a_further_spring_is_free_and_slips_later_or_earlier_than_the_first() {
+        let mut rig = made::rig(2.0);
+        rig.effects.push(identify::Effect {
+            name: "maxwell_slip".to_owned(),
+            values: Kind::MaxwellSlip
+                .about()
+                .keys
+                .iter()
+                .map(|k| (k.name.to_owned(), k.usual.unwrap_or(0.5)))
+                .collect(),
+        });
+        let with = with(&rig, 2, 3.0);
+        assert_eq!(with.value("maxwell_slip.delta_2"), Some(1.5));
+        // It breaks at 0.3 of the first one's force.
+        assert_eq!(with.value("maxwell_slip.share_2"), Some(super::HARD / 3.0));
+        let free = ["maxwell_slip.share_2", "maxwell_slip.delta_2"].map(str::to_owned);
+        assert!(
+            free.iter().all(|name| with.free.contains(name))
+                && rig.free.len() + 2 == with.free.len()
+        );
+    }
+}

@@ -7,8 +7,8 @@ mod sampling;
 mod series;
 mod signs;
 
-pub(crate) use series::{median_step, quantum};
 pub use series::noise;
+pub(crate) use series::{median_step, quantum};
 
 use crate::recording::{Columns, FEWEST_ROWS, stated_step, to_si, usable};
 use crate::rig::{Kind, Rig};

@@ -119,6 +119,7 @@ impl Key {
     }
 
     /// The same, but for what it is where a rig file does not say it [its unit].
+    #[must_use]
     pub const fn usually(self, value: f64) -> Self {
         Self { usual: Some(value), ..self }
     }

@@ -33,3 +33,18 @@ impl Law for DwellStiction {
         if way == 0.0 { D::from(1.0) - (-(p[1].recip() * past.rested)).exp() } else { D::from(0.0) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{DwellStiction, Past};
+    use crate::effects::Law;
+
+    #[test]
+    fn a_contact_is_as_old_as_it_has_rested() {
+        let age = |way: f64, rested: f64| {
+            DwellStiction::start(&[1.0, 0.5, 1.0], 0, (way, Past { path: &[], rested }))
+        };
+        assert!((age(0.0, 0.5) - (1.0 - (-1.0_f64).exp())).abs() < 1e-12);
+        assert_eq!((age(0.0, 0.0), age(1.0, 9.0)), (0.0, 0.0));
+    }
+}

@@ -13,6 +13,12 @@ const PRESLIDING: &str = "presliding";
 /// Standard gravity as the rig file's format has it [m/s²].
 const GRAVITY: f64 = 9.81;
 
+/// The torque of each cable of a drum in the middle, and by how much it grows with the angle.
+fn cables<D: Real>(plant: &dyn Fn(&str) -> D) -> [[D; 2]; 2] {
+    let r = plant("radius");
+    [[plant("f_10") * r, plant("k_1") * r * r], [plant("f_20") * r, -(plant("k_2") * r * r)]]
+}
+
 /// The plant and the friction of `rig`, where `free` says what stands for a parameter instead of its value.
 ///
 /// With `f_s` equal to `f_c` and only `f_c` free LuGre has no Stribeck effect, and the two stay tied.
@@ -34,16 +40,12 @@ pub fn model<D: Real>(rig: &Rig, free: &dyn Fn(&str) -> Option<D>) -> Model<D> {
     let balance = match rig.kind {
         "drum" => {
             let r = plant("radius");
-            let cables = [
-                [plant("f_10") * r, plant("k_1") * r * r],
-                [plant("f_20") * r, -(plant("k_2") * r * r)],
-            ];
             Balance {
                 mass: plant("inertia"),
                 gain: plant("motor_constant"),
                 constant: (plant("f_20") - plant("f_10")) * r,
                 stiffness: (plant("k_1") + plant("k_2")) * r * r,
-                cables,
+                cables: cables(&plant),
                 ..nothing
             }
         }

@@ -22,7 +22,10 @@ fn eight() -> f64 {
 impl Effect for TorqueSaturation {
     fn refuses(&self, scenario: &Scenario) -> Option<&'static str> {
         let driven = scenario.plant.balance().is_some();
-        unless(driven && self.limit > 0.0 && self.power > 0.0, "a driven plant, and a limit and a power above 0")
+        unless(
+            driven && self.limit > 0.0 && self.power > 0.0,
+            "a driven plant, and a limit and a power above 0",
+        )
     }
 
     fn amplifier(&self, _u: f64, drive: f64) -> f64 {
