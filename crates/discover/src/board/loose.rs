@@ -17,7 +17,7 @@ const DRIVES: &[&str] = &["motor_constant", "gain", "torque_constant", "resistan
 
 /// The torque of a drum's two prestressed springs, if both pulled the same way [N·m].
 pub(super) fn prestress(rig: &Rig) -> f64 {
-    if rig.kind != "drum" || rig.free.iter().any(|f| f == "f_10") {
+    if rig.kind != "drum" || is_free(rig, "f_10") {
         return 0.0;
     }
     let value = |key: &str| rig.value(key).unwrap_or(0.0);

@@ -346,8 +346,7 @@ impl Walk<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::Verdict;
-    use super::{Discovery, simpler};
+    use super::{Discovery, Hold, Verdict, hold::Told, other_hold, simpler};
     use crate::walk::made;
 
     /// An answer with so many effects that leaves so much.
@@ -372,7 +371,6 @@ mod tests {
 
     #[test]
     fn the_other_way_between_samples_is_tried_where_the_record_may_speak_for_it() {
-        use super::{Hold, hold::Told, other_hold};
         let found = |verdict: Verdict| Discovery { verdict, ..answer(1, 1.0) };
         let told = |hold: Hold, sure: bool| Some(Told { hold, sure });
         let (line, step) = (Hold::Linear, Hold::ZeroOrder);
