@@ -202,12 +202,12 @@ fn free(fit: &Table, rig: &Rig) -> Result<Vec<String>, RigError> {
     let texts = item.texts(fit.text, expected)?;
     // Who names an element 0 counts from there.
     let from_zero = texts.iter().any(|(_, name)| name.ends_with("[0]"));
-    for (line, name) in texts {
-        let counted = if from_zero { one_later(name) } else { None };
-        let name = counted.as_deref().unwrap_or(name);
+    for (line, written) in texts {
+        let counted = if from_zero { one_later(written) } else { None };
+        let name = counted.as_deref().unwrap_or(written);
         let elements = rig.expand(name);
         if elements.is_empty() {
-            return Err(RigError::unknown(Some(line), "parameter", name, &known));
+            return Err(RigError::unknown(Some(line), "parameter", written, &known));
         }
         if elements.iter().any(|element| all.contains(element)) {
             let found = super::error::quoted(name);
