@@ -92,6 +92,24 @@ fn a_summary_reads_back_from_its_files() {
     assert!(names.contains(&"fits.csv") && !names.contains(&"models.csv"), "{names:?}");
 }
 
+#[test]
+fn what_a_killed_writer_left_is_removed_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    for name in [".a.csv.x7.part", ".a.csv.x8.part", ".b.csv.x7.part", ".a.csv.txt", "a.csv.part"] {
+        fs::write(at(name), "half").unwrap();
+    }
+    let live = fs::File::open(at(".a.csv.x8.part")).unwrap();
+    live.lock().unwrap();
+    write_whole(&at("a.csv"), b"whole").unwrap();
+    let mut left: Vec<String> = fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    left.sort();
+    assert_eq!(left, [".a.csv.txt", ".a.csv.x8.part", ".b.csv.x7.part", "a.csv", "a.csv.part"]);
+}
+
 fn record() -> CaseRecord {
     let history =
         History { t: vec![0.1], step: vec![1e-300], value: vec![-0.0], error: vec![1.0 / 3.0] };
