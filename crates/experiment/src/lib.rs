@@ -25,6 +25,7 @@ mod summary;
 mod written;
 
 pub use compare::NEAR_A_KINK;
+pub use discoveries::SEARCH_SOURCES;
 pub use drift::{Drift, drift};
 pub use error::ExperimentError;
 pub use judge::four_digits;

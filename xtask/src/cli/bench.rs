@@ -115,9 +115,9 @@ pub(crate) const SCORED: u64 = 8_010_240;
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own on the command line")]
 pub(crate) struct HiddenArgs {
-    /// How many records.
-    #[arg(long, value_name = "N", default_value_t = HIDDEN, value_parser = records)]
-    pub(crate) records: usize,
+    /// How many records; with --from its first ones, all if not given, else as many as the README's table has.
+    #[arg(long, value_name = "N", value_parser = records)]
+    pub(crate) records: Option<usize>,
     /// The first seed; each record has the next. Below 100000 for tuning, from 1000000 on for scoring.
     #[arg(long, value_name = "N", default_value_t = SCORED, value_parser = clap::value_parser!(u64).range(..1 << 62))]
     pub(crate) seed: u64,
@@ -131,8 +131,9 @@ pub(crate) struct HiddenArgs {
     /// Run nothing and tell of the table that is kept; with --save the figure is drawn anew.
     #[arg(long, conflicts_with_all = ["records", "seed", "threads"])]
     pub(crate) kept: bool,
-    /// Run the records in this folder, which --write has made, one at a time.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["records", "seed", "threads", "kept"])]
+    /// Run the records in this folder, which --write has made, one at a time. What was answered is kept in answers/ in
+    /// it and not searched again by the same search, so that a run that was ended goes on where it was.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["seed", "threads", "kept"])]
     pub(crate) from: Option<PathBuf>,
     /// Run nothing and write records with their rig files here, and their truths and keys to truth/ in it.
     #[arg(long, value_name = "DIR", requires = "seeds", conflicts_with_all = ["records", "seed", "threads", "save", "kept", "from", "markdown", "json"])]

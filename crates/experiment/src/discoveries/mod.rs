@@ -62,10 +62,13 @@ fn finish(
     Ok(Discovered { record: named(search, record), key, why })
 }
 
+/// The hash of all code that decides what a search answers: our sources, the locked dependencies, the compiler.
+pub const SEARCH_SOURCES: &str = env!("DUHEM_SEARCH_SOURCES");
+
 /// The hash of all that determines the answer; neither its names nor what was hidden are among it.
 fn key(search: &Discovery) -> Key {
     let options = format!("{:?}", search.options);
-    Key::of(&[env!("DUHEM_SEARCH_SOURCES"), &search.source.content, &options])
+    Key::of(&[SEARCH_SOURCES, &search.source.content, &options])
 }
 
 fn finite(value: f64) -> Option<f64> {

@@ -1,6 +1,7 @@
 //! Cases as files: a record with its card, the rig file, and apart from them the truth and the key.
 //!
 //! `N.parquet` and `N-rig.toml` are what an analyst gets; `truth/N.toml` and `truth/N-key.toml` are for the scorer.
+//! What was answered is kept in `answers/`, so that a run that was ended goes on where it was.
 
 use super::{
     case::{Given, judged},
@@ -12,7 +13,7 @@ use crate::{
     synthetic::{Places, text, write},
 };
 use anyhow::{Context, anyhow};
-use record::{read_sheet, write_whole};
+use record::{Found, Store, read_sheet, sha256, write_whole};
 use serde::{Deserialize, Serialize};
 use std::{fs, path::Path};
 use twin::{
@@ -56,9 +57,9 @@ pub(super) fn write_cases(folder: &Path, seeds: &[u64], seconds: f64) -> Result<
     Ok(())
 }
 
-/// The rows of all cases that stand in a folder, in the order of their seeds. A table that is to be `kept` can be made
-/// again from its first seed and their number.
-pub(super) fn rows(folder: &Path, kept: bool) -> Result<Vec<Row>, Failure> {
+/// The rows of the cases that stand in a folder, in the order of their seeds, of the first `most` if that is said. A
+/// table that is to be `kept` can be made again from its first seed and their number.
+pub(super) fn rows(folder: &Path, most: Option<usize>, kept: bool) -> Result<Vec<Row>, Failure> {
     let shown = folder.display().to_string();
     let entries = fs::read_dir(folder).with_context(|| shown.clone()).map_err(input)?;
     let paths = entries.flatten().map(|entry| entry.path());
@@ -66,6 +67,7 @@ pub(super) fn rows(folder: &Path, kept: bool) -> Result<Vec<Row>, Failure> {
     let mut seeds: Vec<u64> =
         records.filter_map(|path| path.file_stem()?.to_str()?.parse().ok()).collect();
     seeds.sort_unstable();
+    seeds.truncate(most.unwrap_or(usize::MAX));
     if seeds.is_empty() {
         let expected =
             "expected records named by their seeds, as 17.parquet; make some with --write";
@@ -78,20 +80,37 @@ pub(super) fn rows(folder: &Path, kept: bool) -> Result<Vec<Row>, Failure> {
             "{shown}: {before} is followed by {after}; {told}: write the others too"
         )));
     }
-    seeds.into_iter().map(|seed| row(folder, seed)).collect()
+    let store = Store::new(folder.join("answers"));
+    let mut rows = Vec::new();
+    for seed in &seeds {
+        rows.push(row(folder, *seed, &store)?);
+        if rows.len().is_multiple_of(10) {
+            output::note(&format!("{} of {} records", rows.len(), seeds.len()));
+        }
+    }
+    Ok(rows)
 }
 
-fn row(folder: &Path, seed: u64) -> Result<Row, Failure> {
+fn row(folder: &Path, seed: u64, store: &Store) -> Result<Row, Failure> {
     let rig = read(&folder.join(format!("{seed}-rig.toml")))?;
     let path = folder.join(format!("{seed}.parquet"));
+    let bytes = fs::read(&path).with_context(|| path.display().to_string()).map_err(input)?;
+    let truth = folder.join(format!("truth/{seed}-key.toml"));
+    let (key, truth_of) = (read(&truth)?, folder.join(format!("truth/{seed}.toml")));
+    let parts = [experiment::SEARCH_SOURCES, &rig, &sha256(&bytes), &key, &read(&truth_of)?];
+    let answer = record::Key::of(&parts);
+    if let Found::Record(row) = store.read::<Row>(&answer)? {
+        return Ok(*row);
+    }
     let sheet = read_sheet(&path).with_context(|| path.display().to_string()).map_err(input)?;
     let given = Given::new(&rig, &|name| sheet.column(name).ok())?;
-    let path = folder.join(format!("truth/{seed}-key.toml"));
     let file: KeyFile =
-        toml::from_str(&read(&path)?).with_context(|| path.display().to_string()).map_err(input)?;
-    let scenario = scenario(&folder.join(format!("truth/{seed}.toml")))?;
+        toml::from_str(&key).with_context(|| truth.display().to_string()).map_err(input)?;
+    let scenario = scenario(&truth_of)?;
     let case = Case { seed, recipe: file.recipe, scenario, rig, key: file.key };
-    judged(&case, &given, file.seen)
+    let row = judged(&case, &given, file.seen)?;
+    store.write(&answer, &row)?;
+    Ok(row)
 }
 
 /// The scenario in a truth that stands beside a record.

@@ -12,7 +12,7 @@ mod table;
 mod value;
 
 use crate::{
-    cli::HiddenArgs,
+    cli::{HIDDEN, HiddenArgs},
     exit::{Exit, Failure},
     output,
 };
@@ -41,7 +41,7 @@ pub(super) fn run(root: &Path, arguments: &HiddenArgs) -> Result<Exit, Failure> 
     }
     let (rows, at_once) = match &arguments.from {
         _ if arguments.kept => (kept(root)?, None),
-        Some(folder) => (files::rows(folder, arguments.save)?, Some(1)),
+        Some(folder) => (files::rows(folder, arguments.records, arguments.save)?, Some(1)),
         None => (rows(arguments, threads)?, Some(threads)),
     };
     if arguments.json {
@@ -56,7 +56,7 @@ pub(super) fn run(root: &Path, arguments: &HiddenArgs) -> Result<Exit, Failure> 
             let (records, seed) = match (&arguments.from, rows.first()) {
                 // The same records, for all hangs on their seeds.
                 (Some(_), Some(first)) => (rows.len(), first.seed),
-                _ => (arguments.records, arguments.seed),
+                _ => (records(arguments), arguments.seed),
             };
             let command = format!(
                 "cargo xtask bench hidden-effects --records {records} --seed {seed} --save"
@@ -71,6 +71,11 @@ pub(super) fn run(root: &Path, arguments: &HiddenArgs) -> Result<Exit, Failure> 
     Ok(if held { Exit::Done } else { Exit::CheckFailed })
 }
 
+/// How many records are drawn.
+fn records(arguments: &HiddenArgs) -> usize {
+    arguments.records.unwrap_or(HIDDEN)
+}
+
 /// The rows of the table that is kept.
 fn kept(root: &Path) -> Result<Vec<Row>, Failure> {
     let text = fs::read_to_string(root.join(TABLE))
@@ -81,17 +86,18 @@ fn kept(root: &Path) -> Result<Vec<Row>, Failure> {
 /// The records, answered, in the order of their seeds; whoever is free takes the next.
 fn rows(arguments: &HiddenArgs, threads: usize) -> Result<Vec<Row>, Failure> {
     let next = AtomicUsize::new(0);
+    let records = records(arguments);
     let parts: Vec<Vec<Result<Row, Failure>>> = thread::scope(|scope| {
         let work = || {
             let mut done = Vec::new();
             loop {
                 let i = next.fetch_add(1, Ordering::Relaxed);
-                if i >= arguments.records {
+                if i >= records {
                     return done;
                 }
                 done.push(case::run(arguments.seed + i as u64));
                 if !arguments.json && (i + 1).is_multiple_of(25) {
-                    output::note(&format!("{} of {} records", i + 1, arguments.records));
+                    output::note(&format!("{} of {records} records", i + 1));
                 }
             }
         };

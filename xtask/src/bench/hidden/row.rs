@@ -1,12 +1,13 @@
 //! One record of the benchmark: what was hidden in it, and what was answered.
 
+use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 
 /// A change of nature is visible from so many standard deviations on [σ].
 pub(super) const VISIBLE: f64 = 5.0;
 
 /// What is hidden in a record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub(super) enum Kind {
     /// Nothing: every parameter is 2 % wrong, as always.
     Nothing,
@@ -39,8 +40,8 @@ impl Kind {
 /// An effect as it was named: itself first, then every name it was said not to be told from.
 pub(super) type Set = Vec<String>;
 
-/// One record. Of the clock there is nothing in it but `seconds`, which is not kept.
-#[derive(Debug, Clone, PartialEq)]
+/// One record. Of the clock there is nothing in it but `seconds`, which the table does not keep.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Row {
     pub(super) seed: u64,
     pub(super) family: String,
