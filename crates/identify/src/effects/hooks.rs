@@ -210,6 +210,8 @@ pub trait Law {
     const JOINS: bool = false;
     /// The amounts at which it is tried, of their natural size, if it does not begin smoothly.
     const TRIED: &[f64] = &[];
+    /// The forms that it may take, if there is more than one: values of its key `form`.
+    const FORMS: &[f64] = &[];
 
     /// The input as it truly is where `u` was recorded.
     fn input<D: Real>(_p: &[D], u: D) -> D {

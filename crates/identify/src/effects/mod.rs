@@ -105,6 +105,14 @@ macro_rules! effects {
                  }
             }
 
+            /// The forms that it may take, if there is more than one: values of its key `form`.
+            pub fn forms(self) -> &'static [f64] {
+                match self {
+                    $(Self::$law => $module::$law::FORMS,)*
+                    $(Self::$hidden => $other::$hidden::FORMS,)*
+                 }
+            }
+
             /// The amounts at which it is tried, of their natural size; none if it begins smoothly.
             pub fn tried(self) -> &'static [f64] {
                 match self {

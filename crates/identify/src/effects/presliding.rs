@@ -10,13 +10,13 @@ impl Law for Presliding {
         name: "presliding",
         physics: "Before it slides a contact gives way like a spring, and dissipates.",
         channel: Channel::Torque,
-        keys: &[Key::fitted("sigma", Measure::Stiffness)],
-        probes: |c| [1e4, 1e3, 100.0].iter().map(|s| vec![s * c.force / c.span]).collect(),
+        keys: &[Key::fitted("sigma", Measure::Stiffness), Key::fitted("gamma", Measure::One).usually(1.0)],
+        probes: |c| [1e4, 1e3, 100.0].iter().map(|s| vec![s * c.force / c.span, 1.0]).collect(),
         applies: |rig| (rig.friction.name == "coulomb" || rig.friction.name == "none") && value(rig, "f_c") > 0.0,
         confused: &["maxwell_slip", "backlash"],
         separated_by: "small reversals, smaller than the presliding distance",
         test: 0.1,
     };
 
-    // Binding makes the rig's Coulomb friction a Dahl model of this stiffness.
+    // Binding makes the rig's Coulomb friction a Dahl model of this stiffness and exponent.
 }

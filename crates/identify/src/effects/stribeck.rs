@@ -24,13 +24,21 @@ impl Law for Stribeck {
         test: 0.1,
     };
 
+    const FORMS: &[f64] = &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
         // Forms 1 and 3: exp(−(v/v_s)²), as in the paper; 2 and 4: exp(−|v|/v_s), as in older texts. The first two
-        // change the level at which the contact slips, the others its whole force.
+        // change the level at which the contact slips, the others its whole force. 5 and 6: 1/(1 + (v/v_s)²), of the level
+        // and of the whole force (Hess and Soom, Journal of Tribology 112, 1990).
         let (s, form) = (at.v / p[1], p[2].re());
-        let power = if form % 2.0 == 1.0 { s * s } else if s.re() < 0.0 { -s } else { s };
-        let rise = p[0] * (-power).exp();
-        let f_c = at.f_c();
-        if form < 2.5 || f_c.re() <= 0.0 { Act::rise(rise) } else { Act::more(rise / f_c) }
+        let share = if form > 4.5 {
+            (s * s + 1.0).recip()
+        } else {
+            let power = if form % 2.0 == 1.0 { s * s } else if s.re() < 0.0 { -s } else { s };
+            (-power).exp()
+        };
+        let (rise, f_c) = (p[0] * share, at.f_c());
+        let level = form < 2.5 || form == 5.0;
+        if level || f_c.re() <= 0.0 { Act::rise(rise) } else { Act::more(rise / f_c) }
     }
 }

@@ -6,6 +6,17 @@ use crate::march::Real;
 /// So many widths beyond the knee the bend is over to the last digit.
 const FAR: f64 = 36.0;
 
+/// The form without a knee: the drive bends from the first on, as tanh does.
+const ROUND: f64 = 2.0;
+
+/// The hyperbolic tangent.
+fn tanh<D: Real>(x: D) -> D {
+    let size = if x.re() < 0.0 { -x } else { x };
+    let left = (size * -2.0).exp();
+    let tanh = (D::from(1.0) - left) / (left + 1.0);
+    if x.re() < 0.0 { -tanh } else { tanh }
+}
+
 /// The drive gives less than it should when it is to give much.
 pub(super) struct TorqueSaturation;
 
@@ -18,15 +29,25 @@ impl Law for TorqueSaturation {
             Key::positive("loss", Measure::One, 1.2),
             Key::fitted("knee", Measure::Force),
             Key::fitted("width", Measure::Force),
+            Key::probed("form", Measure::One),
         ],
-        probes: |c| [0.5, 0.65, 0.8, 0.9].map(|s| vec![s * c.drive, 0.05 * c.drive]).to_vec(),
+        probes: |c| {
+            [0.5, 0.65, 0.8, 0.9].map(|s| vec![s * c.drive, 0.05 * c.drive, 1.0]).to_vec()
+        },
         applies: driven,
         confused: &["quadratic_drag", "friction_drift", "load_friction"],
         separated_by: "two amplitudes of the drive",
         test: 0.1,
     };
 
+    const FORMS: &[f64] = &[1.0, ROUND];
+
     fn drive<D: Real>(p: &[D], force: D) -> D {
+        if p[3].re() == ROUND {
+            // All that is lost where the drive gives the knee's tanh of what is asked.
+            let given = p[1] * tanh(force / p[1]);
+            return force - (force - given) * p[0];
+        }
         // What is beyond the knee, and a little of what is before: an amplifier bends, it has no corner.
         let size = if force.re() < 0.0 { -force } else { force };
         let over = (size - p[1]) / p[2];

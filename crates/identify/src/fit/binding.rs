@@ -123,6 +123,7 @@ pub(super) fn given(rig: &Rig, key: &str) -> f64 {
 fn contact<D: Real>(rig: &Rig, free: &dyn Fn(&str) -> Option<D>) -> Contact<D> {
     let given = |key: &str| given(rig, key);
     let of = |key: &str| free(key).unwrap_or_else(|| D::from(given(key)));
+    let effect = |name: &str| free(name).unwrap_or_else(|| D::from(rig.value(name).unwrap_or(0.0)));
     let list = |key: &str| match rig.friction.parameters.0.get(key) {
         Some(Parameter::List(values)) => values
             .iter()
@@ -135,9 +136,8 @@ fn contact<D: Real>(rig: &Rig, free: &dyn Fn(&str) -> Option<D>) -> Contact<D> {
         // What gives way before it slides is no longer Coulomb's.
         "coulomb" if rig.effects.iter().any(|e| e.name == PRESLIDING) => Contact::Dahl {
             f_c: of("f_c"),
-            sigma: free("presliding.sigma")
-                .unwrap_or_else(|| D::from(rig.value("presliding.sigma").unwrap_or(0.0))),
-            gamma: D::from(1.0),
+            sigma: effect("presliding.sigma"),
+            gamma: effect("presliding.gamma"),
         },
         "coulomb" => Contact::Coulomb { f_c: of("f_c") },
         "dahl" => Contact::Dahl { f_c: of("f_c"), sigma: of("sigma"), gamma: of("gamma") },

@@ -32,7 +32,7 @@ impl Seen {
 /// A record of a driven plant, or of an imposed motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Data {
-    /// Times of the samples [s].
+    /// Times of the samples since the first of them [s]: a clock may count from anywhere.
     pub time: Vec<f64>,
     /// What drives the plant, in the unit of its input; the displacement if the motion is imposed.
     pub input: Vec<f64>,
@@ -88,8 +88,9 @@ impl Data {
             (Some(first), Some(second)) => Some([first, second]),
             _ => None,
         };
+        let began = recording.time.first().copied().unwrap_or(0.0);
         Self {
-            time: recording.time.clone(),
+            time: recording.time.iter().map(|t| t - began).collect(),
             input: input.and_then(values).unwrap_or_default(),
             hold: rig.controller.as_ref().map_or(hold, |c| c.hold),
             displacement: if imposed { None } else { seen(displacement) },

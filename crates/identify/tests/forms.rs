@@ -1,0 +1,113 @@
+//! The forms an effect may take, against what is known in closed form.
+
+use identify::{
+    Hold, Recording, Rig,
+    fit::{Data, binding},
+    march::{Drive, Motion, Start, Tolerance, march},
+};
+
+/// An axis of 2 kg with this friction and effect.
+fn axis(friction: &str, effect: &str) -> Rig {
+    let text = format!(
+        "title = \"t\"\n[plant]\nkind = \"axis\"\ninertia = 2.0\ngain = 1.0\noffset = 0.0\n[friction]\n{friction}\n\
+         [channels]\ntime = \"t\"\nvoltage = \"u\"\nposition = \"q\"\n[[effect]]\n{effect}\n"
+    );
+    Rig::parse(&text).expect("a rig")
+}
+
+/// The motion under a constant `drive` [N] for so many samples of 10 ms, from a velocity on.
+fn moved(rig: &Rig, drive: f64, samples: u32, v: f64) -> Motion {
+    let model = binding::model::<f64>(rig, &|_| None);
+    let time: Vec<f64> = (0..samples).map(|i| 0.01 * f64::from(i)).collect();
+    let values = vec![drive; time.len()];
+    let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::ZeroOrder };
+    let start = Start { q: 0.0, v, z: vec![0.0; model.states()] };
+    let tolerance = Tolerance { q: 1e-10, v: 1e-10, z: 1e-10, steps: 10_000_000 };
+    march(&model, &drive, &time, &start, &tolerance).expect("a motion")
+}
+
+/// The speed at which it ends under a constant drive [N].
+fn ends(rig: &Rig, drive: f64) -> f64 {
+    moved(rig, drive, 4000, 0.3).v[3999]
+}
+
+#[test]
+fn eyring_s_drag_is_an_inverse_hyperbolic_sine() {
+    let rig = axis("name = \"none\"", "name = \"sublinear_drag\"\nc = 50.0\nv_0 = 0.02\nform = 2");
+    for drive in [1.0, -3.0] {
+        let exact = 0.02 * f64::sinh(drive / (50.0 * 0.02));
+        let v = ends(&rig, drive);
+        assert!((v / exact - 1.0).abs() < 1e-8, "{v} m/s for {exact} m/s");
+    }
+    // Slowly it is viscous.
+    let v = ends(&rig, 1e-6);
+    assert!((v / (1e-6 / 50.0) - 1.0).abs() < 1e-6, "{v} m/s");
+}
+
+#[test]
+fn a_drive_without_a_knee_gives_the_tanh_of_what_is_asked() {
+    let saturation = "name = \"torque_saturation\"\nloss = 0.8\nknee = 3.0\nwidth = 1.0\nform = 2";
+    let rig = axis("name = \"none\"\nsigma_2 = 4.0", saturation);
+    for drive in [0.5_f64, 4.0, -20.0] {
+        let given = 0.2 * drive + 0.8 * 3.0 * (drive / 3.0).tanh();
+        let v = ends(&rig, drive);
+        assert!((v / (given / 4.0) - 1.0).abs() < 1e-8, "{v} m/s at {drive} N");
+    }
+}
+
+#[test]
+fn friction_may_fall_off_with_the_square_of_the_speed() {
+    let stribeck = "name = \"stribeck\"\ndrop = 1.0\nv_s = 0.1\nform = 5";
+    let rig = axis("name = \"coulomb\"\nf_c = 2.0\nsigma_2 = 40.0", stribeck);
+    let v = ends(&rig, 12.0);
+    let held = 2.0 + 1.0 / (1.0 + (v / 0.1).powi(2)) + 40.0 * v;
+    assert!((held - 12.0).abs() < 1e-6 && v > 0.2, "{held} N at {v} m/s");
+}
+
+#[test]
+fn a_wave_with_its_overtone_gives_back_what_it_took() {
+    let (sine, cosine, k, share, phase) = (0.3, -0.2, 9.0, 0.4, 2.0);
+    let cogging = format!(
+        "name = \"cogging\"\nsine = {sine}\ncosine = {cosine}\nwavenumber = {k}\nshare_2 = {share}\nphase_2 = {phase}"
+    );
+    let motion = moved(&axis("name = \"none\"", &cogging), 0.0, 400, 0.6);
+    // The integral of the force along the way.
+    let potential = |q: f64| {
+        let wave = |x: f64| -sine * x.cos() + cosine * x.sin();
+        (wave(k * q) + 0.5 * share * wave(2.0 * k * q + phase)) / k
+    };
+    let energy = |q: f64, v: f64| v * v + potential(q);
+    let whole = energy(0.0, 0.6);
+    for (q, v) in motion.q.iter().zip(&motion.v) {
+        assert!((energy(*q, *v) - whole).abs() < 1e-7, "{q} m, {v} m/s");
+    }
+    let slowest = motion.v.iter().fold(f64::INFINITY, |least, v| least.min(*v));
+    assert!(slowest < 0.59, "the wave is felt");
+}
+
+#[test]
+fn a_contact_that_gives_way_does_so_with_dahl_s_exponent() {
+    let dahl = "title = \"t\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n[friction]\nname = \"dahl\"\n\
+                f_c = 0.4\nsigma = 90.0\ngamma = 0.8\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n";
+    let coulomb =
+        dahl.replace("\"dahl\"", "\"coulomb\"").replace("sigma = 90.0\ngamma = 0.8\n", "")
+            + "[[effect]]\nname = \"presliding\"\nsigma = 90.0\ngamma = 0.8\n";
+    let of = |text: &str| binding::model::<f64>(&Rig::parse(text).expect("a rig"), &|_| None);
+    assert_eq!(format!("{:?}", of(&coulomb).contact), format!("{:?}", of(dahl).contact));
+    let usual = coulomb.replace("gamma = 0.8\n", "");
+    assert_eq!(Rig::parse(&usual).expect("a rig").value("presliding.gamma"), Some(1.0));
+}
+
+#[test]
+fn a_clock_may_count_from_anywhere() {
+    let rig = axis("name = \"none\"", "name = \"current_bias\"\nbias = 0.0");
+    let of = |began: f64| {
+        let time: Vec<f64> = (0..100).map(|i| began + 0.25 * f64::from(i)).collect();
+        let q: Vec<f64> = (0..100).map(|i| f64::from(i % 7)).collect();
+        let column = |name: &str| Ok(if name == "t" { time.as_slice() } else { q.as_slice() });
+        Data::of(&rig, &Recording::new(&rig, &column).expect("a recording"))
+    };
+    // Quarters of a second since 1970 have no rounding.
+    assert_eq!(of(1_731_999_100.25), of(0.0));
+    assert_eq!(of(-7.5).time[..2], [0.0, 0.25]);
+}
