@@ -42,6 +42,10 @@ const STRUCK: f64 = 10.0;
 /// A scaled curvature that is less than this is the rounding of larger ones.
 const UNSEEN: f64 = 1e-12;
 
+/// What leaves so much may leave noise that is not white, if it takes away so much of the excess.
+pub(super) const NOISY: f64 = 1.6;
+pub(super) const NEARLY_ALL: f64 = 0.99;
+
 /// A nominal parameter that moves further was wrong: nominal values are a little off, always.
 const WRONG: f64 = 0.08;
 
@@ -117,6 +121,8 @@ impl Walk<'_> {
             identify::fit::binding::set(&mut rig, &moved.found.name, moved.given);
             rig.free.retain(|name| *name != moved.found.name);
         }
+        // What is given and only a little loose must not go as far in its place.
+        rig.free.retain(|name| !self.board.loose.iter().any(|(loose, _)| loose == name));
         let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
         let near = self.board.fit(&rig, Some((&x, &self.best.pieces)), &FIRST)?;
         let (near, free) = (self.judged(&near.blocks), self.judged(&self.best.blocks));
@@ -137,7 +143,7 @@ impl Walk<'_> {
 
     /// All free values of the last model with their standard errors, and the names of those for which `rig` has a
     /// wrong value.
-    fn values(&self, rig: &Rig) -> Result<(Vec<Value>, Vec<String>), FitError> {
+    pub(super) fn values(&self, rig: &Rig) -> Result<(Vec<Value>, Vec<String>), FitError> {
         let problem = self.board.problem(&self.best.rig, |_| true)?;
         let gram = Gram::of_rig(&self.board, &self.best, &self.best.rig)?;
         let n = gram.nominal;
@@ -273,7 +279,10 @@ fn verdict(
         let wrong = parameters.iter().any(|p| p.moved) && before > refit * 1.05;
         return if wrong { Verdict::Parameter } else { Verdict::NothingMissing };
     }
-    if !more(mostly[2]) {
+    // Noise that is not white leaves more than the floor, the same whatever moves; what takes away all but a hundredth of
+    // the excess is no part of something else.
+    let noisy = mostly[2] < NOISY && shrink(refit, last) > NEARLY_ALL;
+    if !more(mostly[2]) || noisy && !struck {
         return Verdict::Effect;
     }
     // What takes away a part of something else is not its name.
@@ -331,6 +340,9 @@ mod tests {
         for (refit, last) in [(379.0, 1.12), (8.43, 0.88), (4.46, 1.04)] {
             assert_eq!(of(refit, last), Verdict::Effect, "{last} of {refit}");
         }
+        // Noise that is not white leaves a little of a lot.
+        assert_eq!(of(94.0, 1.45), Verdict::Effect);
+        assert_eq!(of(94.0, 1.7), Verdict::Partial);
         // Much is left of much more.
         assert_eq!(of(9000.0, 5.0), Verdict::Partial);
     }

@@ -39,6 +39,9 @@ const AFRESH: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 16 }
 const HEAT: usize = 6;
 const KEPT: usize = 8;
 
+/// The same for smooth effects, of which the worst are seen sooner.
+const HEATS: [(usize, usize); 2] = [(3, 14), (HEAT, KEPT)];
+
 /// Of those that go on so many do at once; what leaves so many times what the nearest does on short windows is behind.
 const AT_ONCE: usize = 2;
 const BEHIND: f64 = 2.0;
@@ -85,6 +88,9 @@ impl Walk<'_> {
         let far = points.len() > 1;
         let mut all: Vec<Candidate> = Vec::new();
         for (place, point) in points.iter().enumerate() {
+            // What went far takes the waves along, and what it leaves shows others.
+            let elsewhere = far && place == 0;
+            let context = &if elsewhere { self.waved(point, context) } else { *context };
             let gram = match start {
                 Some(gram) if place + 1 == points.len() => gram.clone(),
                 _ => Gram::of(&self.board, point, (context, false))?,
@@ -182,7 +188,7 @@ impl Walk<'_> {
     ) -> Vec<Candidate> {
         let all: Vec<(Kind, Rig)> =
             list.iter().map(|scored| (scored.kind, model::with(point, scored))).collect();
-        self.longer(self.short.raced(&all, &[(HEAT, KEPT)], &AFRESH), (now, context))
+        self.longer(self.short.raced(&all, &HEATS, &AFRESH), (now, context))
     }
 
     /// What came near on short windows, refitted on the long ones, the nearest first; what is far behind there is not

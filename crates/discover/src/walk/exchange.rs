@@ -1,17 +1,14 @@
 //! Whether an effect that was found first is still the one beside those found after it.
 
 use super::{
-    REFIT, Walk,
+    Walk,
     named::{LEAST, UNSURE},
 };
 use crate::{
     decide::Judged,
     verdict::{Found, Options},
 };
-use identify::{
-    effects::Context,
-    fit::{FitError, starts},
-};
+use identify::{effects::Context, fit::FitError};
 
 impl Walk<'_> {
     /// Looks once more for every effect but the last, beside all others: what was found first made up for what was
@@ -25,11 +22,7 @@ impl Walk<'_> {
         for place in 0..effects.len().saturating_sub(1) {
             let (before, ranked) = (self.best.clone(), self.ranking.len());
             let name = effects[place].name;
-            let mut rig = before.rig.clone();
-            rig.effects.retain(|effect| effect.name != name);
-            rig.free.retain(|free| !free.starts_with(&format!("{name}.")));
-            let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
-            self.best = self.board.fit(&rig, Some((&x, &before.pieces)), &REFIT)?;
+            self.best = self.without(&before, name)?;
             self.origin = self.best.clone();
             let again = self.step(context, options, (effects.len(), None))?;
             self.ranking.truncate(ranked);

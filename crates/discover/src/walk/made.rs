@@ -24,7 +24,7 @@ pub(super) fn rig(mass: f64) -> Rig {
 }
 
 /// x = sin 2t of 2 kg under the force that its equation asks for, but for the bias; noise of 1 mm.
-pub(super) fn data() -> Data {
+pub(crate) fn data() -> Data {
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
     let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
@@ -51,6 +51,7 @@ pub(super) fn walk<'a>(rig: &Rig, data: &'a Data, loose: &[(String, f64)]) -> Wa
         origin: best.clone(),
         best,
         given,
+        refit: f64::INFINITY,
         ranking: Vec::new(),
         strayed: Vec::new(),
         before_held: None,

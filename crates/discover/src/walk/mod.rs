@@ -3,10 +3,12 @@
 mod answer;
 mod candidates;
 mod exchange;
+mod forms;
 #[cfg(test)]
-mod made;
+pub(crate) mod made;
 mod named;
 mod places;
+mod plain;
 mod polish;
 mod springs;
 mod strayed;
@@ -20,6 +22,7 @@ use crate::{
     screen::Scored,
     verdict::{Discovery, Found, Options, Ranked, Verdict},
 };
+use answer::{NEARLY_ALL, NOISY};
 use identify::{
     Hold, Rig,
     effects::Context,
@@ -68,6 +71,8 @@ struct Walk<'a> {
     short: Board<'a>,
     counts: Vec<f64>,
     best: Fitted,
+    /// What the refitted nominal model leaves [1].
+    refit: f64,
     /// The model of the rig file.
     given: Rig,
     /// The model before its refit, in the first round: what is missing drags parameters to where no effect is itself.
@@ -156,6 +161,7 @@ fn walked(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitErr
         short,
         counts,
         best: refit,
+        refit: f64::INFINITY,
         given: fixed.clone(),
         origin,
         ranking: Vec::new(),
@@ -165,13 +171,15 @@ fn walked(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitErr
     walk.begun_anew()?;
     walk.near_the_floor(CLOSE_TO)?;
     let refit = walk.best.clone();
-    let context = walk.waved(&model::context(&walk.board, &refit));
+    walk.refit = walk.judged(&refit.blocks).level();
+    let context = walk.waved(&refit, &model::context(&walk.board, &refit));
     // To say how little of each would show.
     let start = Gram::of(&walk.board, &refit, (&context, true))?;
     let mut effects = walk.rounds(&context, options, &start)?;
     walk.drop_each(&mut effects)?;
     walk.exchange_each(&mut effects, &context, options)?;
     let refit = walk.polish(&refit, options.seed)?;
+    walk.drop_unsure(rig, &refit, &mut effects)?;
     let before = walk.board.judged(&fixed, None)?;
     walk.answer((rig, &before, &refit), (effects, &start), &context)
 }
@@ -262,10 +270,19 @@ impl Walk<'_> {
         // Where no friction is told of, its two plain parts are no effects beside others.
         let bare = self.given.friction.name == "none" && self.given.friction.sigma_2 == 0.0;
         let most = options.most + if bare { PLAIN } else { 0 };
-        for round in 0..most {
+        while effects.len() < most {
+            let round = effects.len();
             let first = Some(start).filter(|_| round == 0);
             let before = (self.board.clone(), self.best.clone());
-            let Some(found) = self.step(context, options, (round, first))? else { break };
+            let found = self.step(context, options, (round, first))?;
+            let found = if bare && round == 0 {
+                self.plain(found, context, &before.1)?
+            } else {
+                found.into_iter().collect()
+            };
+            if found.is_empty() {
+                break;
+            }
             // A refit of what was taken is not the next effect's to claim.
             self.best = settled(&mut self.board, self.best.clone(), options.seed)?;
             self.begun_anew()?;
@@ -277,7 +294,7 @@ impl Walk<'_> {
             self.reclaim()?;
             self.hold_strayed(options.seed)?;
             self.origin = self.beside_given()?;
-            effects.push(found);
+            effects.extend(found);
         }
         self.loosen_held();
         Ok(effects)
@@ -290,7 +307,7 @@ impl Walk<'_> {
         options: &Options,
         (round, start): (usize, Option<&Gram>),
     ) -> Result<Option<Found>, FitError> {
-        let context = &if start.is_some() { *context } else { self.waved(context) };
+        let context = &if start.is_some() { *context } else { self.waved(&self.best, context) };
         let now = self.judged(&self.best.blocks);
         if now.level() > GROSS {
             self.board.refine(&self.best, ROUGH)?;
@@ -299,13 +316,16 @@ impl Walk<'_> {
         let all = self.finely(candidates)?;
         let mut all = self.told_apart(&now, all, context)?;
         // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.
-        if now.level() > ABOVE && !all.iter().any(|c| self.down(&now, c, context)) {
+        let joins = now.level() > ABOVE && !self.explained(now.level());
+        if joins && !all.iter().any(|c| self.down(&now, c, context)) {
             let joints = self.begun(self.points()[0], context);
             all.extend(self.finely(joints)?);
             let beside = self.beside(&all, context);
             all.extend(self.finely(beside)?);
             all = self.told_apart(&now, all, context)?;
         }
+        let others = self.other_forms(&all, context);
+        all.extend(self.finely(others)?);
         let rated = self.rated(all, context);
         self.rank(&rated, (round, &now));
         let Some((best, found)) = found(&now, &rated, round) else { return Ok(None) };
@@ -318,9 +338,14 @@ impl Walk<'_> {
         Ok(Some(found))
     }
 
-    /// The sizes of the record with the waves that the last model leaves.
-    fn waved(&self, context: &Context) -> Context {
-        Context { waves: waves(&self.board, &self.best, context), ..*context }
+    /// The sizes of the record with the waves that a model leaves.
+    fn waved(&self, fitted: &Fitted, context: &Context) -> Context {
+        Context { waves: waves(&self.board, fitted, context), ..*context }
+    }
+
+    /// Whether what is named explains all but what noise that is not white may leave.
+    fn explained(&self, level: f64) -> bool {
+        level < NOISY && shrink(self.refit, level) > NEARLY_ALL
     }
 
     /// Whether a candidate explains all that is missing.

@@ -1,5 +1,6 @@
 //! Which of the candidates is named.
 
+use super::GROSS;
 use crate::{
     decide::{Judged, shrink},
     model::Candidate,
@@ -23,6 +24,9 @@ const CLOSE: f64 = 0.8;
 
 /// What takes away so much of the excess need not do so in every block alike.
 pub(super) const MOST: f64 = 0.5;
+
+/// The same where the model is far off.
+const MUCH: f64 = 0.4;
 
 /// What takes away so much of the excess explains it.
 pub(super) const ALL: f64 = 0.9;
@@ -75,16 +79,21 @@ pub(super) fn found<'r>(
         gone > CLOSE * first && sure(now, &r.judged, (gone, round))
     })?;
     let gone = share(&best.judged);
-    let rival = |r: &&Rated| {
-        let worse = share(&r.judged);
+    let as_much = |r: &Rated| {
         let near = r.judged.level() < NEAR * best.judged.level();
-        let alike = gone - worse < ALIKE * gone && near;
-        (r.judged.against(&best.judged) < UNSURE || alike) && worse > CLOSE * gone
+        gone - share(&r.judged) < ALIKE * gone && near
+    };
+    let rival = |r: &&Rated| {
+        let as_good = r.judged.against(&best.judged) < UNSURE || as_much(r);
+        as_good && share(&r.judged) > CLOSE * gone
     };
     let alike: Vec<&Rated> = [best].into_iter().chain(plausible.filter(rival)).collect();
-    // What needs more numbers than a simpler one must be worth a name beside it.
+    // What needs more numbers than a simpler one must be worth a name beside it; where much is left the little that a
+    // law's form changes is no sign of it.
+    let far = best.judged.level() > GROSS;
     let no_worse = |r: &&&Rated| {
-        r.judged.against(&best.judged) < UNSURE || r.judged.gained(&best.judged) < LEAST
+        let unsure = r.judged.against(&best.judged) < UNSURE;
+        unsure || r.judged.gained(&best.judged) < LEAST || far && as_much(r)
     };
     let fitted = |key: &&Key| matches!(key.shape, Shape::Amount | Shape::Fitted);
     let keys = |r: &&&Rated| r.candidate.kind.about().keys.iter().filter(fitted).count();
@@ -107,7 +116,8 @@ fn sure(now: &Judged, judged: &Judged, (gone, round): (f64, usize)) -> bool {
     let sure = if now.level() < NOTHING {
         t >= CERTAIN || (gone > MOST && (now.everywhere(judged) >= CERTAIN || rarely()))
     } else {
-        t >= SURE || (gone > MOST && t >= UNSURE) || (gone > ALL && rarely())
+        let most = if now.level() > GROSS { MUCH } else { MOST };
+        t >= SURE || (gone > most && t >= UNSURE) || (gone > ALL && rarely())
     };
     let shows =
         round == 0 || now.level() > NOTHING || judged.level() < (1.0 - BESIDE) * now.level();
@@ -193,6 +203,41 @@ mod tests {
         let all = both(1.2);
         let (best, taken) = found(&now, &all, 0).unwrap();
         assert_eq!((best.kind, taken.set.len()), (LAWS[other], 2));
+    }
+
+    #[test]
+    fn where_much_is_left_the_form_of_a_law_decides_nothing() {
+        let keys = |place: usize| LAWS[place].about().keys.len();
+        let (simple, other) = (
+            (0..LAWS.len()).min_by_key(|place| keys(*place)).unwrap(),
+            (0..LAWS.len()).max_by_key(|place| keys(*place)).unwrap(),
+        );
+        // Surely worse by a hundredth of the excess: of 900 floors that leave 30, or of 9 that leave one.
+        for (before, [better, worse], named) in
+            [(900.0, [30.0, 39.0], simple), (9.0, [1.0, 1.1], other)]
+        {
+            let now = judged(before, 1.0);
+            let all = [rated(other, judged(better, 0.05)), rated(simple, judged(worse, 0.05))];
+            let (best, taken) = found(&now, &all, 0).unwrap();
+            assert_eq!((best.kind, taken.set.len()), (LAWS[named], 2), "{before}");
+        }
+    }
+
+    #[test]
+    fn far_off_two_fifths_of_the_excess_are_plenty() {
+        let half = |far: bool| {
+            let size = if far { 100.0 } else { 1.0 };
+            let blocks = |k: usize| {
+                let gain = if k.is_multiple_of(2) { 0.15 } else { 1.0 };
+                [10.0 * size, 10.0 * size * gain]
+            };
+            let of = |i: usize| Judged {
+                blocks: (0..6).map(|k| blocks(k)[i]).collect(),
+                counts: vec![300.0; 6],
+            };
+            found(&of(0), &[rated(0, of(1))], 0).is_some()
+        };
+        assert!(half(true));
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! What is done to a model that is near already.
 
 use super::{
-    ABOVE, DOWN, GROSS, REFIT, Walk,
-    named::{MOST, Rated, SURE},
+    ABOVE, DOWN, GROSS, REFIT, Walk, astray,
+    named::{MOST, NOTHING, Rated, SURE},
 };
 use crate::{
     board::{Board, FINE, Fitted},
@@ -11,7 +11,8 @@ use crate::{
     verdict::Found,
 };
 use identify::{
-    effects::Context,
+    Rig,
+    effects::{Context, Key, LAWS, Shape},
     fit::{FitError, binding, search::Patience, starts},
 };
 use rayon::prelude::*;
@@ -32,6 +33,9 @@ pub(super) const CLOSE_TO: f64 = 1.4;
 /// this share of it, may be nearer than that where it ends.
 const CONTENDS: f64 = 3.0;
 const AS_MUCH: f64 = 0.1;
+
+/// An amount is surely more than nothing from so many standard errors on.
+const TOLD: f64 = 4.0;
 
 impl<'a> Walk<'a> {
     /// The candidates, and those that contend for the name at their ends: which of them is the nearest, and whether it
@@ -124,7 +128,8 @@ impl<'a> Walk<'a> {
         }
         let anew = self.board.fit(&self.best.rig, None, &REFIT)?;
         let anew = self.board.nearer(&anew, &self.best.pieces)?;
-        if self.board.trained(&anew) < self.board.trained(&self.best) {
+        let better = self.board.trained(&anew) < self.board.trained(&self.best);
+        if better && !astray(&self.board, &anew, &self.origin) {
             self.best = anew;
         }
         Ok(())
@@ -171,15 +176,50 @@ impl<'a> Walk<'a> {
         Ok(fitted)
     }
 
+    /// A model refitted without one of its effects.
+    pub(super) fn without(&self, fitted: &Fitted, name: &str) -> Result<Fitted, FitError> {
+        let mut rig = fitted.rig.clone();
+        rig.effects.retain(|effect| effect.name != name);
+        rig.free.retain(|free| !free.starts_with(&format!("{name}.")));
+        let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
+        self.board.fit(&rig, Some((&x, &fitted.pieces)), &REFIT)
+    }
+
+    /// Takes away again, where the refitted nominal model leaves no more than the floor, every effect of which no amount
+    /// is surely more than nothing: what its shapes fit besides is noise.
+    pub(super) fn drop_unsure(
+        &mut self,
+        rig: &Rig,
+        refit: &Fitted,
+        effects: &mut Vec<Found>,
+    ) -> Result<(), FitError> {
+        if self.judged(&refit.blocks).level() > NOTHING {
+            return Ok(());
+        }
+        for place in (0..effects.len()).rev() {
+            let name = effects[place].name;
+            let Some(kind) = LAWS.iter().find(|kind| kind.about().name == name) else { continue };
+            let (values, _) = self.values(rig)?;
+            let sure = |key: &Key| {
+                let name = format!("{name}.{}", key.name);
+                let own = values.iter().find(|value| value.name == name);
+                own.is_none_or(|own| own.value.abs() >= TOLD * own.standard_error)
+            };
+            let mut amounts =
+                kind.about().keys.iter().filter(|key| key.shape == Shape::Amount).peekable();
+            if amounts.peek().is_some() && !amounts.any(sure) {
+                let alone = effects.len() == 1;
+                self.best = if alone { refit.clone() } else { self.without(&self.best, name)? };
+                effects.remove(place);
+            }
+        }
+        Ok(())
+    }
+
     /// Takes away again every effect without which a refit is as good: it had only shown the way.
     pub(super) fn drop_each(&mut self, effects: &mut Vec<Found>) -> Result<(), FitError> {
         for place in (0..effects.len()).rev() {
-            let name = effects[place].name;
-            let mut rig = self.best.rig.clone();
-            rig.effects.retain(|effect| effect.name != name);
-            rig.free.retain(|free| !free.starts_with(&format!("{name}.")));
-            let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
-            let mut without = self.board.fit(&rig, Some((&x, &self.best.pieces)), &REFIT)?;
+            let mut without = self.without(&self.best, effects[place].name)?;
             let now = self.judged(&self.best.blocks);
             let needless = |without: &Fitted| {
                 let there = self.judged(&without.blocks);
@@ -205,7 +245,7 @@ impl<'a> Walk<'a> {
 mod tests {
     use crate::{
         model::Candidate,
-        walk::made::{BIAS, context, data, rig, walk, with},
+        walk::made::{BIAS, context, data, rig, walk, with, with as made_with},
     };
     use identify::effects::{Context, Kind};
 
@@ -231,6 +271,32 @@ mod tests {
             let levels = levels.map(|c| walk.judged(&c.fitted.blocks).level());
             let end = levels.fold(f64::INFINITY, f64::min);
             assert!(end < 1.05, "{kind:?} ends at {end}");
+        }
+    }
+
+    #[test]
+    fn an_effect_that_is_not_surely_more_than_nothing_is_dropped_near_the_floor() {
+        let data = data();
+        let mut walk = walk(&rig(2.0), &data, &[]);
+        let with = |kind: Kind, values: &[f64]| with(&walk.best.rig, kind, values);
+        let bias = with(Kind::CurrentBias, &[BIAS]);
+        let none = made_with(&bias, Kind::ViscousAsymmetry, &[1e-9]);
+        let found = |name: &'static str| crate::verdict::Found {
+            name,
+            set: vec![name],
+            values: Vec::new(),
+            shrink: 0.9,
+            t: 9.0,
+            separated_by: String::new(),
+        };
+        let refit = walk.board.judged(&bias, None).unwrap();
+        let both = walk.board.judged(&none, None).unwrap();
+        for (before, left) in [(refit.clone(), 1), (walk.best.clone(), 2)] {
+            walk.best = both.clone();
+            let mut effects = vec![found("current_bias"), found("viscous_asymmetry")];
+            walk.drop_unsure(&rig(2.0), &before, &mut effects).unwrap();
+            assert_eq!(effects.len(), left, "the nominal model is near, or far off");
+            assert_eq!((effects[0].name, walk.best.rig.effects.len()), ("current_bias", left));
         }
     }
 

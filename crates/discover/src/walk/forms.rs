@@ -1,0 +1,149 @@
+//! The nearest effect in its other forms, where the one in which it was looked for does not do.
+
+use super::{ABOVE, FIRST, Walk};
+use crate::model::Candidate;
+use identify::{
+    Rig,
+    effects::{Context, Kind},
+    fit::{binding, starts},
+};
+use rayon::prelude::*;
+
+/// The overtone of a force that repeats along the way is begun at this share of it, at each of these phases [rad].
+const SHARE: f64 = 0.2;
+const PHASES: [f64; 4] = [0.8, 2.4, 3.9, 5.5];
+
+/// A wave that leaves no more than so many times what the nearest does is tried with its overtone.
+const BEHIND: f64 = 10.0;
+
+/// Another form must lower what is left to so much of what it was.
+const LOWER: f64 = 0.8;
+
+impl Walk<'_> {
+    /// The nearest candidate in the best of its other forms, and the nearest wave with its overtone, each if it comes
+    /// much nearer so.
+    pub(super) fn other_forms(&self, all: &[Candidate], context: &Context) -> Vec<Candidate> {
+        let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
+        let plausible = all.iter().filter(|c| self.fits(c, context));
+        let Some(nearest) = plausible.min_by(|a, b| level(a).total_cmp(&level(b))) else {
+            return Vec::new();
+        };
+        let least = level(nearest);
+        let waves = all.iter().filter(|c| c.kind == Kind::Cogging);
+        let wave = waves.min_by(|a, b| level(a).total_cmp(&level(b)));
+        let wave = wave.filter(|wave| level(wave) < BEHIND * least);
+        let overtone = |wave: &Candidate| {
+            self.best_of(wave, PHASES.map(|phase| with_overtone(&wave.fitted.rig, phase)).to_vec())
+        };
+        let form = format!("{}.form", nearest.kind.about().name);
+        let own = nearest.fitted.rig.value(&form);
+        let others =
+            nearest.kind.forms().iter().filter(|other| own.is_some_and(|own| own != **other));
+        let rigs = others.map(|other| {
+            let mut rig = nearest.fitted.rig.clone();
+            binding::set(&mut rig, &form, *other);
+            rig
+        });
+        let other = self.best_of(nearest, rigs.collect());
+        other.into_iter().chain(wave.and_then(overtone)).collect()
+    }
+
+    /// The nearest of a candidate's variants, refitted, if it lowers what the candidate leaves.
+    fn best_of(&self, candidate: &Candidate, variants: Vec<Rig>) -> Option<Candidate> {
+        let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
+        let left = level(candidate);
+        if left < ABOVE {
+            return None;
+        }
+        let refitted = |rig: &Rig| {
+            let x = starts::nominal(&self.board.problem(rig, |_| true).ok()?);
+            let fitted = self.board.fit(rig, Some((&x, &candidate.fitted.pieces)), &FIRST).ok()?;
+            Some(Candidate { kind: candidate.kind, fitted })
+        };
+        let found: Vec<Candidate> = variants.par_iter().filter_map(refitted).collect();
+        let best = found.into_iter().min_by(|a, b| level(a).total_cmp(&level(b)))?;
+        (level(&best) < LOWER * left).then_some(best)
+    }
+}
+
+/// `rig` with an overtone at this phase [rad].
+fn with_overtone(rig: &Rig, phase: f64) -> Rig {
+    let mut with = rig.clone();
+    for (name, value) in [("cogging.share_2", SHARE), ("cogging.phase_2", phase)] {
+        binding::set(&mut with, name, value);
+        if !with.free.iter().any(|free| free == name) {
+            with.free.push(name.to_owned());
+        }
+    }
+    with
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        model::Candidate,
+        walk::made::{context, rig, walk, with},
+    };
+    use identify::{
+        Hold,
+        effects::{Context, Kind},
+        fit::{Data, Seen},
+    };
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    /// x = sin 2t of 2 kg on 3 N/m, viscous by 0.5 N·s/m, under a force that this much is taken from; noise of 0.1 mm.
+    fn taken(much: impl Fn(f64, f64) -> f64) -> Data {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
+        let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
+        let input = time.iter().map(|t| {
+            let (s, c) = f64::sin_cos(2.0 * t);
+            (3.0 - 2.0 * 4.0) * s + 0.5 * 2.0 * c + much(s, 2.0 * c)
+        });
+        let input = input.collect();
+        let seen = time.iter().map(|t| (2.0 * t).sin() + 1e-4 * noise()).collect();
+        Data::driven(time, input, Hold::Linear, Seen::new("position", seen, 0.0))
+    }
+
+    #[test]
+    fn an_overtone_is_found_beside_its_wave() {
+        let data = taken(|q, _| {
+            let wave = |x: f64| 6.0 * x.sin() + 3.0 * x.cos();
+            wave(9.0 * q) + 0.3 * wave(18.0 * q + 2.0)
+        });
+        let walk = walk(&rig(2.0), &data, &[]);
+        let context = Context { span: 200.0, ..context(&walk) };
+        let wave = with(&rig(2.0), Kind::Cogging, &[6.0, 3.0, 9.0]);
+        let fitted = walk.board.judged(&wave, None).unwrap();
+        let alone = walk.judged(&fitted.blocks).level();
+        let found = walk.other_forms(&[Candidate { kind: Kind::Cogging, fitted }], &context);
+        let [found] = found.as_slice() else { panic!("{} forms", found.len()) };
+        let left = walk.judged(&found.fitted.blocks).level();
+        assert!(alone > 5.0 && left < 1.2, "{alone} alone, {left} with its overtone");
+        let value = |key: &str| found.fitted.rig.value(&format!("cogging.{key}")).unwrap();
+        assert!((value("share_2") - 0.3).abs() < 0.02, "{}", value("share_2"));
+        let off = (value("phase_2") - 2.0).rem_euclid(std::f64::consts::TAU);
+        assert!(off.min(std::f64::consts::TAU - off) < 0.05, "{}", value("phase_2"));
+    }
+
+    #[test]
+    fn the_form_that_comes_nearer_is_taken() {
+        let data = taken(|_, v| 30.0 * 0.05 * (v / 0.05).asinh());
+        let walk = walk(&rig(2.0), &data, &[]);
+        let context = context(&walk);
+        let carreau = with(&rig(2.0), Kind::SublinearDrag, &[30.0, 0.05, 0.9, 1.0]);
+        let mut free = carreau.clone();
+        free.free.extend(["v_0", "bend"].map(|key| format!("sublinear_drag.{key}")));
+        let fitted = walk.board.fit(&free, None, &super::FIRST).unwrap();
+        let alone = walk.judged(&fitted.blocks).level();
+        let candidate = Candidate { kind: Kind::SublinearDrag, fitted };
+        let found = walk.other_forms(&[candidate], &context);
+        let [found] = found.as_slice() else { panic!("{} forms beside {alone}", found.len()) };
+        let left = walk.judged(&found.fitted.blocks).level();
+        assert!(alone > 1.5 && left < 1.2, "{alone} as Carreau's, {left} as Eyring's");
+        assert_eq!(found.fitted.rig.value("sublinear_drag.form"), Some(2.0));
+        assert!(walk.other_forms(std::slice::from_ref(found), &context).is_empty(), "it is down");
+    }
+}
