@@ -287,8 +287,7 @@ fn verdict(
     }
     // What takes away a part of something else is not its name.
     let named = (refit / last).ln() / refit.ln();
-    let first = effects.first().map_or(0.0, |effect| effect.shrink);
-    let real = refit > NO_NOISE && first > MOST;
+    let real = refit > NO_NOISE && effects.iter().any(|effect| effect.shrink > MOST);
     let part = shrink(refit, last) > EXPLAINED && named > NAMED;
     if part || real { Verdict::Partial } else { Verdict::NotInLibrary }
 }

@@ -33,7 +33,7 @@ impl Walk<'_> {
         let wave = waves.min_by(|a, b| level(a).total_cmp(&level(b)));
         let wave = wave.filter(|wave| level(wave) < BEHIND * least);
         let overtone = |wave: &Candidate| {
-            self.best_of(wave, PHASES.map(|phase| with_overtone(&wave.fitted.rig, phase)).to_vec())
+            self.best_of(wave, &PHASES.map(|phase| with_overtone(&wave.fitted.rig, phase)))
         };
         let form = format!("{}.form", nearest.kind.about().name);
         let own = nearest.fitted.rig.value(&form);
@@ -44,12 +44,12 @@ impl Walk<'_> {
             binding::set(&mut rig, &form, *other);
             rig
         });
-        let other = self.best_of(nearest, rigs.collect());
+        let other = self.best_of(nearest, &rigs.collect::<Vec<Rig>>());
         other.into_iter().chain(wave.and_then(overtone)).collect()
     }
 
     /// The nearest of a candidate's variants, refitted, if it lowers what the candidate leaves.
-    fn best_of(&self, candidate: &Candidate, variants: Vec<Rig>) -> Option<Candidate> {
+    fn best_of(&self, candidate: &Candidate, variants: &[Rig]) -> Option<Candidate> {
         let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
         let left = level(candidate);
         if left < ABOVE {

@@ -276,7 +276,7 @@ impl Walk<'_> {
             let before = (self.board.clone(), self.best.clone());
             let found = self.step(context, options, (round, first))?;
             let found = if bare && round == 0 {
-                self.plain(found, context, &before.1)?
+                self.plain(found.as_ref(), context, &before.1)?
             } else {
                 found.into_iter().collect()
             };

@@ -35,11 +35,11 @@ impl Walk<'_> {
     /// they leave less and neither is enough; else what was found.
     pub(super) fn plain(
         &mut self,
-        found: Option<Found>,
+        found: Option<&Found>,
         context: &Context,
         before: &Fitted,
     ) -> Result<Vec<Found>, FitError> {
-        let one = || found.clone().into_iter().collect::<Vec<Found>>();
+        let one = || found.into_iter().cloned().collect::<Vec<Found>>();
         let [now, there] = [before, &self.best].map(|fitted| self.judged(&fitted.blocks));
         if there.level() < NOTHING {
             return Ok(one());
@@ -56,7 +56,7 @@ impl Walk<'_> {
             let bends = self.best.rig.value("sublinear_drag.v_0").unwrap_or(f64::INFINITY);
             found.name == "sublinear_drag" && bends < AT_ONCE * context.speed
         };
-        let most = if found.as_ref().is_some_and(dry) { PLAINER } else { 1.0 };
+        let most = if found.is_some_and(dry) { PLAINER } else { 1.0 };
         if left.level() > most * there.level() || now.gained(&left) < LEAST {
             return Ok(one());
         }

@@ -157,8 +157,8 @@ pub struct Context {
     pub force: f64,
     /// Largest drive [N].
     pub drive: f64,
-    /// Whether there are load cells.
-    pub cells: bool,
+    /// How many load cells there are.
+    pub cells: usize,
     /// Size of what the load cells show [N].
     pub pull: f64,
     /// Largest speed [m/s].

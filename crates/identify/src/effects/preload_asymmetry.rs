@@ -14,7 +14,7 @@ impl Law for PreloadAsymmetry {
         // Drawn more is the first and as much less the second, 1; the first alone, 2; the second alone is drawn less, 3.
         keys: &[Key::amount("force", Measure::Pull, 10.0), Key::probed("cable", Measure::One)],
         probes: |c| {
-            let cables: &[f64] = if c.cells { &[1.0, 2.0, 3.0] } else { &[1.0] };
+            let cables: &[f64] = if c.cells > 0 { &[1.0, 2.0, 3.0] } else { &[1.0] };
             cables.iter().map(|cable| vec![*cable]).collect()
         },
         applies: |rig| has_springs(rig) && !(is_free(rig, "f_10") && is_free(rig, "f_20")),
