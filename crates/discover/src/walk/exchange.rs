@@ -1,14 +1,17 @@
 //! Whether an effect that was found first is still the one beside those found after it.
 
 use super::{
-    Walk,
-    named::{LEAST, UNSURE},
+    ALIKE, Walk,
+    named::{LEAST, SURE, UNSURE, numbers},
 };
 use crate::{
     decide::Judged,
     verdict::{Found, Options},
 };
-use identify::{effects::Context, fit::FitError};
+use identify::{
+    effects::{Context, LAWS},
+    fit::FitError,
+};
 
 impl Walk<'_> {
     /// Looks once more for every effect but the last, beside all others: what was found first made up for what was
@@ -28,7 +31,7 @@ impl Walk<'_> {
             self.ranking.truncate(ranked);
             let [then, now] = [&before, &self.best].map(|f| self.judged(&f.blocks));
             match again {
-                Some(found) if found.name != name && as_near(&now, &then) => {
+                Some(found) if found.name != name && takes(&now, &then, [found.name, name]) => {
                     effects[place] = found;
                 }
                 Some(found) if found.name == name => {
@@ -43,7 +46,35 @@ impl Walk<'_> {
     }
 }
 
-/// Whether a model with another effect is not surely worse than the last one, or by no more than what is worth no name.
-fn as_near(now: &Judged, then: &Judged) -> bool {
-    now.against(then) < UNSURE || now.gained(then) < LEAST
+/// Whether a model with `another` effect takes the place of the one it had then: if it is not surely worse, or by no more
+/// than what is worth no name; one that needs more numbers must surely be better.
+fn takes(now: &Judged, then: &Judged, [another, had]: [&str; 2]) -> bool {
+    let many = |name: &str| {
+        LAWS.iter().find(|kind| kind.about().name == name).map_or(0, |kind| numbers(*kind))
+    };
+    if many(another) > many(had) {
+        return then.against(now) >= SURE;
+    }
+    let unsure = now.against(then) < UNSURE && now.level() < ALIKE * then.level();
+    unsure || now.gained(then) < LEAST
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Judged, takes};
+
+    #[test]
+    fn a_richer_effect_takes_no_place_but_of_one_that_is_surely_worse() {
+        let of = |means: [f64; 2]| Judged {
+            blocks: (0..20).map(|k| means[k % 2]).collect(),
+            counts: vec![300.0; 20],
+        };
+        let (then, alike, better) = (of([9.0, 9.0]), of([8.0, 10.0]), of([5.0, 6.0]));
+        let (rich, simple) = ("cogging", "viscous");
+        assert!(takes(&alike, &then, [simple, rich]) && !takes(&alike, &then, [rich, simple]));
+        assert!(takes(&better, &then, [rich, simple]));
+        assert!(!takes(&then, &better, [simple, rich]), "surely worse");
+        let worse = of([4.0, 40.0]);
+        assert!(worse.against(&then) < super::UNSURE && !takes(&worse, &then, [simple, simple]));
+    }
 }

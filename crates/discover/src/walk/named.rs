@@ -6,7 +6,7 @@ use crate::{
     model::Candidate,
     verdict::{Found, name},
 };
-use identify::effects::{Key, Shape};
+use identify::effects::{Key, Kind, Shape};
 
 /// An effect is taken if it is better on the judging blocks by so many standard errors.
 pub(super) const SURE: f64 = 3.0;
@@ -95,9 +95,8 @@ pub(super) fn found<'r>(
         let unsure = r.judged.against(&best.judged) < UNSURE;
         unsure || r.judged.gained(&best.judged) < LEAST || far && as_much(r)
     };
-    let fitted = |key: &&Key| matches!(key.shape, Shape::Amount | Shape::Fitted);
-    let keys = |r: &&&Rated| r.candidate.kind.about().keys.iter().filter(fitted).count();
-    let named = alike.iter().filter(no_worse).min_by_key(keys).unwrap_or(&best);
+    let simplest = |r: &&&Rated| numbers(r.candidate.kind);
+    let named = alike.iter().filter(no_worse).min_by_key(simplest).unwrap_or(&best);
     let others = alike.iter().map(|r| r.name()).filter(|other| *other != named.name());
     let set: Vec<&'static str> = [named.name()].into_iter().chain(others).collect();
     let about = named.candidate.kind.about();
@@ -105,6 +104,12 @@ pub(super) fn found<'r>(
     let (shrink, t) = (share(&named.judged), now.against(&named.judged));
     let found = Found { name: named.name(), set, values: Vec::new(), shrink, t, separated_by };
     Some((&named.candidate, found))
+}
+
+/// How many numbers of an effect are fitted from the first on.
+pub(super) fn numbers(kind: Kind) -> usize {
+    let fitted = |key: &&Key| matches!(key.shape, Shape::Amount | Shape::Fitted);
+    kind.about().keys.iter().filter(fitted).count()
 }
 
 /// Whether what takes away the share `gone` of the excess is surely there.
