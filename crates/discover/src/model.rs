@@ -135,6 +135,9 @@ fn varies([s, c, k]: [f64; 3], [low, high]: [f64; 2], most: f64) -> bool {
 /// has 5e-4.
 const SLOWEST: f64 = 5e-4;
 
+/// Where no friction is told of, drag that stops growing at so much of the largest velocity is dry friction.
+const AT_ONCE: f64 = 0.08;
+
 /// Of what does not begin smoothly so much less than is tried is none.
 const TOO_LITTLE: f64 = 0.1;
 
@@ -150,6 +153,7 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
     let value = |key: &Key| rig.value(&format!("{}.{}", about.name, key.name)).unwrap_or(0.0);
     let wave: Vec<f64> = about.keys.iter().map(value).collect();
     let ends = [context.low, context.low + context.span];
+    let bare = rig.friction.name == "none";
     let own = about.keys.iter().all(|key| {
         let value = value(key);
         let size = context.size(key.measure).max(driven.size(key.measure));
@@ -168,6 +172,9 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
             // What does not repeat on the way is a constant force, or one that grows along it.
             (_, Measure::Wavenumber, _) if kind == Kind::Cogging => {
                 value * context.span > REPEATS * TAU
+            }
+            (_, Measure::Speed, _) if kind == Kind::SublinearDrag && bare => {
+                value.abs() >= AT_ONCE * context.speed
             }
             (_, Measure::Speed, _) => value.abs() >= SLOWEST * context.speed,
             _ => true,

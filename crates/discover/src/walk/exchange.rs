@@ -6,6 +6,7 @@ use super::{
 };
 use crate::{
     decide::Judged,
+    model,
     verdict::{Found, Options},
 };
 use identify::{
@@ -31,7 +32,11 @@ impl Walk<'_> {
             self.ranking.truncate(ranked);
             let [then, now] = [&before, &self.best].map(|f| self.judged(&f.blocks));
             match again {
-                Some(found) if found.name != name && takes(&now, &then, [found.name, name]) => {
+                Some(found)
+                    if found.name != name
+                        && takes(&now, &then, [found.name, name])
+                        && self.sound(effects, place, context) =>
+                {
                     effects[place] = found;
                 }
                 Some(found) if found.name == name => {
@@ -43,6 +48,17 @@ impl Walk<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Whether all effects but the one in this `place` are still plausible in the last model: none of them has become what
+    /// was taken away.
+    fn sound(&self, effects: &[Found], place: usize, context: &Context) -> bool {
+        let others = [&self.best.rig, &self.origin.rig, &self.given];
+        let kind = |name: &str| LAWS.iter().find(|kind| kind.about().name == name);
+        effects.iter().enumerate().filter(|(own, _)| *own != place).all(|(_, effect)| {
+            kind(effect.name)
+                .is_none_or(|kind| model::plausible(&self.best.rig, *kind, context, &others))
+        })
     }
 }
 

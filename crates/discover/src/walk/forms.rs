@@ -128,12 +128,16 @@ mod tests {
         assert!(off.min(std::f64::consts::TAU - off) < 0.05, "{}", value("phase_2"));
     }
 
+    const DRY: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n[friction]\n\
+        name = \"coulomb\"\nf_c = 0.5\nsigma_2 = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n";
+
     #[test]
     fn the_form_that_comes_nearer_is_taken() {
-        let data = taken(|_, v| 30.0 * 0.05 * (v / 0.05).asinh());
-        let walk = walk(&rig(2.0), &data, &[]);
+        let data = taken(|_, v| 0.5 * v.signum() + 30.0 * 0.05 * (v / 0.05).asinh());
+        let rig = identify::Rig::parse(DRY).unwrap();
+        let walk = walk(&rig, &data, &[]);
         let context = context(&walk);
-        let carreau = with(&rig(2.0), Kind::SublinearDrag, &[30.0, 0.05, 0.9, 1.0]);
+        let carreau = with(&rig, Kind::SublinearDrag, &[30.0, 0.05, 0.9, 1.0]);
         let mut free = carreau.clone();
         free.free.extend(["v_0", "bend"].map(|key| format!("sublinear_drag.{key}")));
         let fitted = walk.board.fit(&free, None, &super::FIRST).unwrap();
