@@ -56,11 +56,7 @@ pub(crate) fn lacking(
     let mut own = rig.clone();
     own.free.retain(|name| !board.loose.iter().any(|(loose, _)| loose == name));
     let applies = LAWS.iter().copied().filter(|kind| kind.applies(&own));
-    let probes = |kind: Kind| {
-        let all = (kind.about().probes)(context);
-        if all.is_empty() { vec![Vec::new()] } else { all }
-    };
-    applies.map(|kind| (kind, probes(kind))).collect()
+    applies.map(|kind| (kind, (kind.about().probes)(context))).collect()
 }
 
 /// Whether an effect can be scored along a derivative.

@@ -168,6 +168,10 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
             (_, Measure::Amplitude, [sine, cosine, wavenumber, ..]) => {
                 varies([*sine, *cosine, *wavenumber], ends, key.most)
             }
+            // What it has come to by the record's end.
+            (Shape::Amount, ..) if kind == Kind::FrictionDrift => {
+                (value * (1.0 - (-context.duration / wave[1]).exp())).abs() <= key.most
+            }
             (Shape::Amount, ..) => (least..=key.most * size).contains(&value.abs()),
             // What does not repeat on the way is a constant force, or one that grows along it.
             (_, Measure::Wavenumber, _) if kind == Kind::Cogging => {

@@ -171,6 +171,8 @@ pub struct Discovery {
     pub shares: Vec<Share>,
     /// The best map, where the library did not explain all.
     pub map: Option<MapOf>,
+    /// The frequency of a tone in what is left, which the motion does not have [Hz].
+    pub tone: Option<f64>,
     /// Every effect that was refitted.
     pub ranking: Vec<Ranked>,
     /// What this record would have shown.

@@ -117,6 +117,40 @@ fn a_load_in_its_gap_is_stopped_by_its_own_friction() {
 }
 
 #[test]
+fn the_friction_of_a_load_builds_up_on_its_way() {
+    let (gap, speed, rubs, gives) = (0.2, 0.1, 0.1, 0.01);
+    let rig = rig(&format!(
+        "name = \"backlash\"\ngap = {gap}\nrubs = {rubs}\nteeth = 1e-4\ngives = {gives}"
+    ));
+    let time = times(700);
+    let (_, load) = masses();
+    // The motor goes away from the load, which coasts on with bristles that are not bent yet.
+    let model = binding::model::<f64>(&rig, &|_| None);
+    let values = vec![-1.0; time.len()];
+    let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
+    let mut z = vec![0.0; model.states()];
+    z[1] = speed;
+    let start = Start { q: 0.5 * gap - 1e-9, v: 0.0, z };
+    let tolerance = Tolerance { q: 1e-10, v: 1e-9, z: 1e-9, steps: 10_000_000 };
+    let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
+    // Until it turns: m v²/2 = φ (x − d (1 − e^(−x/d))), by equation (24) with γ = 1.
+    let energy = 0.5 * load * speed * speed;
+    let taken = |x: f64| rubs * (x - gives * (1.0 - (-x / gives).exp()));
+    let (mut low, mut high) = (0.0, 0.1);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if taken(middle) < energy { low = middle } else { high = middle }
+    }
+    let furthest = motion.q.iter().copied().fold(0.0, f64::max);
+    assert!((furthest - low).abs() < 1e-4 * low, "{furthest} m for {low} m");
+    // With dry friction it would have come to v²/2 over its deceleration.
+    let dry = speed * speed * load / (2.0 * rubs);
+    assert!(low > 1.2 * dry, "{low} m, {dry} m");
+    let last = motion.q.last().copied().unwrap_or(0.0);
+    assert!(last < furthest - 0.1 * gives, "it is thrown back by its bristles");
+}
+
+#[test]
 fn the_derivatives_of_a_motion_with_a_joint_are_those_of_its_differences() {
     let time = times(300);
     // The time of an impact moves with the gap, and the force jumps there: derivatives over fixed steps do not see it,

@@ -33,6 +33,7 @@ pub(super) fn as_json(told: &Told) -> Value {
         "gap": found.gap.iter().map(gap).collect::<Vec<_>>(),
         "where": shares,
         "map": found.map.as_ref().map(map),
+        "tone": found.tone,
         "ranking": found.ranking.iter().map(ranked).collect::<Vec<_>>(),
         "detectability": found.detectability.iter().map(limit).collect::<Vec<_>>(),
     });

@@ -4,7 +4,7 @@ use super::{
     Run, Told,
     answer::identified,
     picture,
-    shown::{acts, axis_unit, counted, physics, telling},
+    shown::{acts, axis_unit, counted, physics, sounds, telling},
     verdict,
 };
 use crate::{
@@ -242,7 +242,11 @@ fn left(told: &Told) -> Option<FitPart> {
     };
     Some(FitPart {
         title: "What is left".to_owned(),
-        text: vec![sentence(&acts(told, map))],
+        text: [Some(acts(told, map)), told.found.tone.map(sounds)]
+            .into_iter()
+            .flatten()
+            .map(|text| sentence(&text))
+            .collect(),
         figures: vec![FitFigure {
             title: format!("What is left over the {}", map.axis),
             caption: "A force without a name, fitted piece by piece.".to_owned(),

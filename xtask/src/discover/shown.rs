@@ -37,6 +37,7 @@ pub(super) fn lines(told: &Told) -> Vec<String> {
     lines.extend(parameters(&found.parameters));
     lines.extend(gaps("gap", &found.gap, true));
     lines.extend(found.map.as_ref().map(|m| block("map", &acts(told, m))));
+    lines.extend(found.tone.map(|f| block("tone", &sounds(f))));
     for run in &told.runs {
         lines.extend(confirmed(run));
     }
@@ -179,6 +180,11 @@ pub(super) fn axis_unit(told: &Told, axis: &str) -> &'static str {
         (_, Some(kind)) if kind.turns() => "N·m",
         _ => "N",
     }
+}
+
+/// At which frequency a tone sounds.
+pub(super) fn sounds(frequency: f64) -> String {
+    format!("{} Hz sound in what is left, which the motion does not have", four_digits(frequency))
 }
 
 /// Where the force of a map acts.

@@ -13,15 +13,21 @@ use rayon::prelude::*;
 const SHARE: f64 = 0.2;
 const PHASES: [f64; 4] = [0.8, 2.4, 3.9, 5.5];
 
+/// The way in which the friction of a load builds up is begun at these shares of the record's.
+const WAYS: [f64; 3] = [3e-4, 1e-3, 1e-2];
+
 /// A wave that leaves no more than so many times what the nearest does is tried with its overtone.
 const BEHIND: f64 = 10.0;
+
+/// So is a load whose friction builds up on a way.
+const NOT_FAR: f64 = 1.5;
 
 /// Another form must lower what is left to so much of what it was.
 const LOWER: f64 = 0.8;
 
 impl Walk<'_> {
-    /// The nearest candidate in the best of its other forms, and the nearest wave with its overtone, each if it comes
-    /// much nearer so.
+    /// The nearest candidate in the best of its other forms, one with a load whose friction builds up on a way, and the
+    /// nearest wave with its overtone, each if it comes much nearer so.
     pub(super) fn other_forms(&self, all: &[Candidate], context: &Context) -> Vec<Candidate> {
         let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
         let plausible = all.iter().filter(|c| self.fits(c, context));
@@ -33,8 +39,19 @@ impl Walk<'_> {
         let wave = waves.min_by(|a, b| level(a).total_cmp(&level(b)));
         let wave = wave.filter(|wave| level(wave) < BEHIND * least);
         let overtone = |wave: &Candidate| {
-            self.best_of(wave, &PHASES.map(|phase| with_overtone(&wave.fitted.rig, phase)))
+            let rig = &wave.fitted.rig;
+            let with =
+                |phase| spared(rig, &[("cogging.share_2", SHARE), ("cogging.phase_2", phase)]);
+            self.best_of(wave, &PHASES.map(with))
         };
+        let gives = |joint: &Candidate| {
+            let name = format!("{}.gives", joint.kind.about().name);
+            let with = |way| spared(&joint.fitted.rig, &[(&name, way * context.span)]);
+            self.best_of(joint, &WAYS.map(with))
+        };
+        let joints = all.iter().filter(|c| !c.kind.tried().is_empty());
+        let joint = joints.min_by(|a, b| level(a).total_cmp(&level(b)));
+        let joint = joint.filter(|joint| level(joint) < NOT_FAR * least);
         let form = format!("{}.form", nearest.kind.about().name);
         let own = nearest.fitted.rig.value(&form);
         let others =
@@ -45,7 +62,7 @@ impl Walk<'_> {
             rig
         });
         let other = self.best_of(nearest, &rigs.collect::<Vec<Rig>>());
-        other.into_iter().chain(wave.and_then(overtone)).collect()
+        other.into_iter().chain(wave.and_then(overtone)).chain(joint.and_then(gives)).collect()
     }
 
     /// The nearest of a candidate's variants, refitted, if it lowers what the candidate leaves.
@@ -66,13 +83,13 @@ impl Walk<'_> {
     }
 }
 
-/// `rig` with an overtone at this phase [rad].
-fn with_overtone(rig: &Rig, phase: f64) -> Rig {
+/// `rig` with these values of what is not asked for as a rule, free.
+fn spared(rig: &Rig, values: &[(&str, f64)]) -> Rig {
     let mut with = rig.clone();
-    for (name, value) in [("cogging.share_2", SHARE), ("cogging.phase_2", phase)] {
-        binding::set(&mut with, name, value);
+    for (name, value) in values {
+        binding::set(&mut with, name, *value);
         if !with.free.iter().any(|free| free == name) {
-            with.free.push(name.to_owned());
+            with.free.push((*name).to_owned());
         }
     }
     with

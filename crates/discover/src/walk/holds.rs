@@ -42,6 +42,7 @@ mod tests {
             gap: Vec::new(),
             shares: Vec::new(),
             map: None,
+            tone: None,
             ranking: Vec::new(),
             detectability: Vec::new(),
             chi_squared: [9.0, 9.0, left],

@@ -5,6 +5,7 @@ mod candidates;
 mod exchange;
 mod forms;
 mod holds;
+mod left;
 #[cfg(test)]
 pub(crate) mod made;
 mod named;
@@ -13,6 +14,7 @@ mod plain;
 mod polish;
 mod springs;
 mod strayed;
+mod tone;
 mod waves;
 
 use crate::{

@@ -199,7 +199,13 @@ impl<'a> Walk<'a> {
         for place in (0..effects.len()).rev() {
             let name = effects[place].name;
             let Some(kind) = LAWS.iter().find(|kind| kind.about().name == name) else { continue };
-            let (values, _) = self.values(rig)?;
+            // What smoothly goes on with a long time is the same line with many amounts, and there all the same.
+            let smooth = kind.tried().is_empty();
+            let shape = |own: &str| {
+                let key = |key: &&Key| own.strip_prefix(name).is_some_and(|o| o[1..] == *key.name);
+                kind.about().keys.iter().any(|k| key(&k) && k.shape != Shape::Amount)
+            };
+            let (values, _) = self.values(rig, &|own| smooth && shape(own))?;
             let sure = |key: &Key| {
                 let name = format!("{name}.{}", key.name);
                 let own = values.iter().find(|value| value.name == name);

@@ -218,7 +218,8 @@ pub struct About {
     pub channel: Channel,
     /// Its parameters.
     pub keys: &'static [Key],
-    /// The shapes that are tried: for each probe the values of the keys that are shapes, in their order.
+    /// The shapes that are tried: for each probe the values of the keys that are shapes, in their order; none
+    /// where the record cannot show it.
     pub probes: fn(&Context) -> Vec<Vec<f64>>,
     /// When a model can lack it.
     pub applies: fn(&Rig) -> bool,
@@ -232,8 +233,8 @@ pub struct About {
 
 impl About {
     /// One probe, of an effect that has no shape.
-    pub const fn no_shape(_: &Context) -> Vec<Vec<f64>> {
-        Vec::new()
+    pub fn no_shape(_: &Context) -> Vec<Vec<f64>> {
+        vec![Vec::new()]
     }
 
     /// The unit of a parameter in `rig`.

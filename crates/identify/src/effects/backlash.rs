@@ -1,6 +1,6 @@
 //! `backlash`: The load follows the motor only when a gap is used up.
 
-use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, ENCODER, Joint}};
+use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, ENCODER, GIVES, Joint}};
 use crate::march::Real;
 
 /// The load follows the motor only when a gap is used up.
@@ -22,6 +22,7 @@ impl Law for Backlash {
             Key::fitted("rubs", Measure::Force),
             Key::fitted("teeth", Measure::Time),
             ENCODER,
+            GIVES,
         ],
         probes: |c| {
             let own = |(ratio, rubs, encoder): (f64, f64, f64)| {
@@ -37,7 +38,7 @@ impl Law for Backlash {
         separated_by: "slow reversals, with the motor's own angle recorded",
         test: 0.1,
     };
-    const STATES: usize = 2;
+    const STATES: usize = 3;
     const JOINS: bool = true;
     const TRIED: &[f64] = &[3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2];
 
@@ -45,6 +46,6 @@ impl Law for Backlash {
         // Teeth that do not ring.
         let mass = p[1] * at.mass;
         let (stiffness, damping) = (mass / (p[3] * p[3]), mass * 2.0 / p[3]);
-        Some(Joint { mass, stiffness, damping, half: Some(p[0] * 0.5), rubs: p[2] })
+        Some(Joint { mass, stiffness, damping, half: Some(p[0] * 0.5), rubs: p[2], gives: p[5] })
     }
 }

@@ -1,6 +1,6 @@
 //! `compliance`: The gear gives way like a spring between motor and load.
 
-use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, ENCODER, Joint}};
+use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, ENCODER, GIVES, Joint}};
 use crate::march::Real;
 
 /// The gear gives way like a spring between motor and load.
@@ -18,6 +18,7 @@ impl Law for Compliance {
             Key::fitted("damping", Measure::One),
             Key::fitted("rubs", Measure::Force),
             ENCODER,
+            GIVES,
         ],
         probes: |c| {
             let own = |(ratio, encoder): (f64, f64)| vec![ratio, 0.3, 0.01 * c.force, encoder];
@@ -29,13 +30,13 @@ impl Law for Compliance {
         separated_by: "a drive that is held against a stop",
         test: 0.1,
     };
-    const STATES: usize = 2;
+    const STATES: usize = 3;
     const JOINS: bool = true;
     const TRIED: &[f64] = &[1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1];
 
     fn joint<D: Real>(p: &[D], at: &At<D>) -> Option<Joint<D>> {
         let (mass, stiffness) = (p[1] * at.mass, p[0].recip());
         let damping = p[2] * (stiffness * mass).sqrt() * 2.0;
-        Some(Joint { mass, stiffness, damping, half: None, rubs: p[3] })
+        Some(Joint { mass, stiffness, damping, half: None, rubs: p[3], gives: p[5] })
     }
 }

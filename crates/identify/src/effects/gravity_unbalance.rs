@@ -12,8 +12,9 @@ impl Law for GravityUnbalance {
         physics: "A weight out of the middle pulls once a turn.",
         channel: Channel::Torque,
         keys: &[Key::amount("sine", Measure::Force, 5.0), Key::amount("cosine", Measure::Force, 5.0)],
-        probes: About::no_shape,
-        applies: |rig| rig.kind == "drum" || rig.kind == "pendulum",
+        // Whether an axis turns or slides is not said; what does not come as far as a radian shows no turn.
+        probes: |c| if c.turns || c.span > 1.0 { vec![Vec::new()] } else { Vec::new() },
+        applies: |rig| rig.kind == "drum" || rig.kind == "pendulum" || rig.kind == "axis",
         confused: &["cubic_spring", "current_bias", "cogging"],
         separated_by: "load cells, or a whole turn",
         test: 0.1,

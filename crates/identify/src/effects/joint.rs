@@ -19,6 +19,9 @@ pub(super) const ENCODER: Key = Key::probed("encoder", Measure::One);
 /// Its place among the parameters of a joint.
 const PLACE: usize = 4;
 
+/// The way in which the load's friction builds up; so short a one does not show.
+pub(super) const GIVES: Key = Key::spare("gives", Measure::Length, 1e-9);
+
 /// The displacement is the motor's.
 pub(super) const AT_MOTOR: f64 = 2.0;
 
@@ -40,6 +43,8 @@ pub struct Joint<D> {
     pub half: Option<D>,
     /// The load's own friction [N].
     pub rubs: D,
+    /// The way in which it builds up [m].
+    pub gives: D,
 }
 
 /// The motion of the load in a stage, whatever the joint does.
@@ -51,6 +56,8 @@ struct Free<D> {
     heavy: D,
     /// What pulls it back [N].
     pull: D,
+    /// The deflection of its bristles [m].
+    bent: D,
     dt: f64,
 }
 
@@ -69,19 +76,21 @@ impl<D: Real> Joint<D> {
     /// What the joint holds the motor back with [N], in place of springs and weight; the load's displacement and speed
     /// go to `z`.
     pub(crate) fn act(&self, at: &At<D>, base: &[D], z: &mut [D]) -> Act<D> {
-        let (x, w) = (base[0], base[1]);
+        let (x, w, bent) = (base[0], base[1], base[2]);
         let (pull, slope) = Self::pull(at, x + w * at.dt);
-        let free = Free { x, w, heavy: self.mass + slope * (at.dt * at.dt), pull, dt: at.dt };
+        let heavy = self.mass + slope * (at.dt * at.dt);
+        let free = Free { x, w, heavy, pull, bent, dt: at.dt };
         let (force, speed) = self.force(at, &free);
         z[0] = x + speed * at.dt;
         z[1] = speed;
+        z[2] = self.gives * self.rubbed(&free, speed);
         Act::force(force - Self::pull(at, at.q).0)
     }
 
     /// The force of the joint and the speed of the load at the end of the stage.
     fn force(&self, at: &At<D>, free: &Free<D>) -> (D, D) {
         let Some(half) = self.half else { return self.touching(at, free, D::from(0.0)) };
-        let loose = self.slowed(free.heavy * free.w - free.pull * free.dt, free.heavy, free.dt);
+        let loose = self.slowed(free, free.heavy * free.w - free.pull * free.dt, free.heavy);
         let ahead = at.q - free.x - loose * free.dt;
         if ahead.re().abs() <= half.re() {
             return (D::from(0.0), loose);
@@ -98,9 +107,8 @@ impl<D: Real> Joint<D> {
         }
         // Damping alone would throw it back over the edge: it stays there.
         let speed = gap / free.dt;
-        let way = if speed.re() == 0.0 { 0.0 } else { speed.re().signum() };
         let taken = free.heavy * (speed - free.w) / free.dt;
-        (taken + free.pull + self.rubs * way, speed)
+        (taken + free.pull + self.rubs * self.rubbed(free, speed), speed)
     }
 
     /// The same where the joint touches, the motor that much ahead of the load.
@@ -109,21 +117,28 @@ impl<D: Real> Joint<D> {
         let gap = at.q - side - free.x;
         let drives = self.stiffness * gap + self.damping * at.v;
         let heavy = free.heavy + (self.stiffness * dt + self.damping) * dt;
-        let speed = self.slowed(free.heavy * free.w + (drives - free.pull) * dt, heavy, dt);
+        let speed = self.slowed(free, free.heavy * free.w + (drives - free.pull) * dt, heavy);
         (drives - (self.stiffness * dt + self.damping) * speed, speed)
     }
 
-    /// The speed of so much momentum after the load's own friction.
-    fn slowed(&self, momentum: D, heavy: D, dt: f64) -> D {
+    /// The load's friction with which a stage ends at this `speed`, of its largest [1].
+    fn rubbed(&self, free: &Free<D>, speed: D) -> D {
+        let way = speed * free.dt;
+        (free.bent + way) / (self.gives + if way.re() < 0.0 { -way } else { way })
+    }
+
+    /// The speed w of so much `momentum` p and mass h after the load's own friction:
+    /// h w = p − dt φ (ζ + w dt)/(d + |w| dt), which is quadratic on either side of 0 and rises through it.
+    fn slowed(&self, free: &Free<D>, momentum: D, heavy: D) -> D {
+        let (d, dt) = (self.gives, free.dt);
         let most = self.rubs * dt;
-        let left = if momentum.re() > most.re() {
-            momentum - most
-        } else if momentum.re() < -most.re() {
-            momentum + most
-        } else {
-            D::from(0.0)
-        };
-        left / heavy
+        let leads = momentum * d - most * free.bent;
+        let side = if leads.re() < 0.0 { -1.0 } else { 1.0 };
+        let (a, b, c) = (heavy * dt, heavy * d + (most - momentum * side) * dt, leads * side);
+        let root = (b * b + a * c * 4.0).sqrt();
+        // Of the two forms of the root the one that takes no difference.
+        let speed = if b.re() < 0.0 { (root - b) / (a * 2.0) } else { c * 2.0 / (root + b) };
+        speed * side
     }
 
     /// By how much the motor is ahead of a load that is driven along, or held at rest if `way` is 0 [m]. Sliding the

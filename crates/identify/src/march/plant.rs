@@ -154,7 +154,9 @@ impl<D: Real> Model<D> {
         let stage = Stage::of(self, [0.0, 0.0], u);
         let at = self.at(&stage, [q, v], &z[..self.contact.states()]);
         let joint = self.effects.iter().find_map(|e| e.kind.joint(&e.p, &at));
-        let ahead = joint.map_or(D::from(0.0), |joint| joint.ahead(&at, how));
+        let Some(joint) = joint else { return q };
+        let ahead = joint.ahead(&at, how);
+        z[first + 2] = joint.gives * how.0;
         if self.hides_load() {
             z[first] = q - ahead;
             return q;

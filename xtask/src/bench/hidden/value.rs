@@ -141,6 +141,7 @@ mod tests {
             gap: vec![],
             shares: vec![],
             map: None,
+            tone: None,
             ranking: vec![],
             detectability: vec![],
             chi_squared: [1.0; 3],

@@ -1,0 +1,248 @@
+//! What the last model leaves, and whether that is noise.
+
+use super::{Walk, answer::MORE};
+use crate::{board::Fitted, decide::Judged};
+use nalgebra::{DMatrix, DVector};
+
+/// What is left in one channel may be so much larger than its floor before it is said that more is missing: right models
+/// of the records looked at left 0.6 to 1.2 in each.
+const ALONE: f64 = 1.4;
+
+/// So many neighbouring blocks, so many times as far off as the middle one, are no chance: on the records looked at with
+/// nothing missing three in a row come to 1.9 times at most, in whichever channel.
+const LASTING: usize = 3;
+const STRUCK: f64 = 4.0;
+
+/// Noise that is not white hangs together over so few samples, is the same in all blocks but for so much, and no more
+/// than this share of it hangs on how the plant moves. What a wrong model leaves on the records looked at hung together
+/// over 18 samples and more.
+const TOGETHER: f64 = 12.0;
+const STEADY: f64 = 1.5;
+const TOLD: f64 = 0.02;
+
+/// So many samples later nothing is counted that hangs together.
+const LATEST: usize = 120;
+
+/// How far back the velocity is looked at [s].
+const BACK: [f64; 3] = [0.02, 0.1, 0.5];
+
+/// Slow is what goes with this share of the largest velocity.
+const SLOW: f64 = 0.03;
+
+/// The share of a curvature that is added to it.
+const RIDGE: f64 = 1e-4;
+
+/// What a channel leaves that hangs together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Rest {
+    /// Over how many samples [1].
+    together: f64,
+    /// The share of its squares that the motion tells of on the judging blocks [1].
+    told: f64,
+}
+
+impl Walk<'_> {
+    /// What a model leaves but for its worst blocks [1]: in all channels, or in the worst of them if that is so much more
+    /// that it is no chance; what is noise alone is none.
+    pub(super) fn leaves(&self, fitted: &Fitted) -> f64 {
+        let channels = (0..channels(fitted)).map(|c| self.channel(fitted, c));
+        let worst = channels.map(|blocks| self.judging_of(&blocks).mostly()).fold(0.0, f64::max);
+        let left = self.judged(&fitted.blocks).mostly().max(worst * MORE / ALONE);
+        if left > MORE && self.only_noise(fitted) { 1.0 } else { left }
+    }
+
+    /// Whether something acts for a while only: some neighbouring blocks are far worse than the middle one. A single
+    /// one may have gone astray.
+    pub(super) fn struck(&self) -> bool {
+        (0..channels(&self.best)).any(|c| run(&self.channel(&self.best, c)) > STRUCK)
+    }
+
+    /// The mean squared residual of every block in one channel [1].
+    fn channel(&self, fitted: &Fitted, channel: usize) -> Vec<f64> {
+        let samples = self.board.samples();
+        fitted.blocks.iter().zip(samples).map(|(block, n)| block[channel] / n).collect()
+    }
+
+    fn judging_of(&self, blocks: &[f64]) -> Judged {
+        let judging = blocks.iter().zip(&self.board.trains).filter(|(_, trains)| !**trains);
+        Judged { blocks: judging.map(|(block, _)| *block).collect(), counts: Vec::new() }
+    }
+
+    /// Whether what a model leaves is noise of the sensors or of the input that is not white: it hangs together for a
+    /// few samples, is the same in all blocks, and does not hang on how the plant moves.
+    fn only_noise(&self, fitted: &Fitted) -> bool {
+        let of = 1 + usize::from(self.board.data.velocity.is_some());
+        let loud = |c: &usize| {
+            let blocks = self.channel(fitted, *c);
+            self.judging_of(&blocks).mostly() > MORE
+        };
+        let noise = |c: usize| {
+            c < of && run(&self.channel(fitted, c)) < STEADY && {
+                let rest = self.rest(fitted, (c, of));
+                rest.together < TOGETHER && rest.told < TOLD
+            }
+        };
+        let seen = !self.board.imposed() && self.board.data.displacement.is_some();
+        let mut all = (0..channels(fitted)).filter(loud).peekable();
+        seen && all.peek().is_some() && all.all(noise)
+    }
+
+    /// What one of `of` channels of a driven motion leaves.
+    fn rest(&self, fitted: &Fitted, (channel, of): (usize, usize)) -> Rest {
+        let (board, data) = (&self.board, self.board.data);
+        let pairs = || board.windows.iter().zip(&fitted.pieces);
+        let moving = || fitted.pieces.iter().map(|piece| &piece.motion);
+        let largest =
+            |all: &mut dyn Iterator<Item = &f64>| all.fold(1e-300, |m: f64, x| m.max(x.abs()));
+        let sizes = [
+            largest(&mut moving().flat_map(|motion| &motion.q)),
+            largest(&mut moving().flat_map(|motion| &motion.v)),
+            largest(&mut data.input.iter()),
+        ];
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "half a second of samples"
+        )]
+        let back = BACK.map(|back| (back / data.sample_time()).round().max(1.0) as usize);
+        let mut fitting: Option<(DMatrix<f64>, DVector<f64>)> = None;
+        let mut judged: Vec<(DVector<f64>, f64)> = Vec::new();
+        let mut lagged = vec![0.0; LATEST];
+        for (w, (window, piece)) in pairs().enumerate() {
+            let (q, v) = (&piece.motion.q, &piece.motion.v);
+            let own = piece.residuals.iter().skip(channel).step_by(of).take(window.len());
+            let rows: Vec<f64> = own.copied().collect();
+            if rows.len() < window.len() || q.len() < window.len() || v.len() < window.len() {
+                continue;
+            }
+            for (i, row) in rows.iter().enumerate() {
+                for (sum, before) in lagged.iter_mut().zip(rows[..=i].iter().rev()) {
+                    *sum += row * before;
+                }
+                let now =
+                    [q[i] / sizes[0], v[i] / sizes[1], data.input[window.first + i] / sizes[2]];
+                let before = back.map(|back| v[i.saturating_sub(back)] / sizes[1]);
+                let row = (DVector::from_vec(features(now, before)), *row);
+                if board.trains[board.block(w)] {
+                    let n = row.0.len();
+                    let (a, b) =
+                        fitting.get_or_insert_with(|| (DMatrix::zeros(n, n), DVector::zeros(n)));
+                    a.ger(1.0, &row.0, &row.0, 1.0);
+                    b.axpy(row.1, &row.0, 1.0);
+                } else {
+                    judged.push(row);
+                }
+            }
+        }
+        let by = fitting.and_then(|(a, b)| {
+            let stiffer = DMatrix::from_diagonal(&a.diagonal().map(|own| RIDGE * own + 1e-12));
+            Some((a + stiffer).cholesky()?.solve(&b))
+        });
+        let told = by.map_or(1.0, |by| {
+            let squares = |left: &dyn Fn(&DVector<f64>, f64) -> f64| -> f64 {
+                judged.iter().map(|(f, row)| left(f, *row).powi(2)).sum()
+            };
+            1.0 - squares(&|f, row| row - by.dot(f)) / squares(&|_, row| row)
+        });
+        let shares = lagged.iter().skip(1).map(|sum| sum / lagged[0]);
+        Rest { together: 1.0 + 2.0 * shares.take_while(|r| *r > 0.0).sum::<f64>(), told }
+    }
+}
+
+/// How many channels a model has, the load cells among them.
+fn channels(fitted: &Fitted) -> usize {
+    fitted.blocks.first().map_or(0, Vec::len)
+}
+
+/// What a wrong model may hang on, of displacement, velocity and input now, and of the velocity `before`, each of its
+/// largest.
+fn features([q, v, u]: [f64; 3], before: [f64; 3]) -> Vec<f64> {
+    let way = |v: f64| (v / SLOW).tanh();
+    let (sign, slow) = (way(v), (-(v / SLOW).powi(2)).exp());
+    let own = [1.0, q, q * q, q * q * q, v, v * v, v * v * v, v.abs() * v, u, u * u, u * u * u];
+    let across = [q * v, q * u, u * v, v.abs(), slow];
+    let dry = [1.0, q, q * q, u, u * u, slow].map(|more| sign * more);
+    let past = before.iter().flat_map(|v| [*v, way(*v)]);
+    own.into_iter().chain(across).chain(dry).chain(past).collect()
+}
+
+/// So many times the middle of the blocks all of some neighbouring ones are far off at least [1].
+fn run(blocks: &[f64]) -> f64 {
+    let mut sorted = blocks.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let Some(middle) = sorted.get(sorted.len() / 2) else { return 0.0 };
+    let least = |run: &[f64]| run.iter().copied().fold(f64::INFINITY, f64::min);
+    blocks.windows(LASTING).map(least).fold(0.0, f64::max) / middle.max(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::made, run};
+    use identify::{effects::Kind, fit::Data};
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    /// The record with more noise on its displacement, of which this share lasts from sample to sample.
+    fn noisier(lasts: f64) -> Data {
+        let mut random = ChaCha8Rng::seed_from_u64(11);
+        let mut data = made::data();
+        let mut off = 0.0;
+        for x in &mut data.displacement.as_mut().expect("it is seen").values {
+            let drawn: f64 = StandardNormal.sample(&mut random);
+            off = lasts * off + 1e-3 * (1.0 - lasts * lasts).sqrt() * drawn;
+            *x += off;
+        }
+        data
+    }
+
+    #[test]
+    fn noise_that_is_not_white_is_told_from_what_is_missing() {
+        let right = made::with(&made::rig(2.0), Kind::CurrentBias, &[made::BIAS]);
+        let leaves = |lasts: f64, rig: &identify::Rig| {
+            let data = noisier(lasts);
+            let walk = made::walk(rig, &data, &[]);
+            let mostly = walk.judged(&walk.best.blocks).mostly();
+            (mostly, walk.leaves(&walk.best))
+        };
+        let (mostly, left) = leaves(0.7, &right);
+        assert!(mostly > 1.4 && left <= 1.0, "{mostly} are noise, and {left} is left");
+        // A little of the bias is left.
+        let wrong = made::with(&made::rig(2.0), Kind::CurrentBias, &[0.6 * made::BIAS]);
+        let (mostly, left) = leaves(0.0, &wrong);
+        assert!(left > 1.2 && left >= mostly, "{left} of {mostly}");
+        let (mostly, left) = leaves(0.7, &wrong);
+        assert!(left > 1.2 && left >= mostly, "{left} of {mostly}, with noise that is not white");
+        // What hangs together as long as a window is no noise.
+        let (mostly, left) = leaves(0.99, &right);
+        assert!(mostly < 1.2 || left >= mostly, "{left} of {mostly}");
+    }
+
+    #[test]
+    fn one_channel_is_not_hidden_by_the_others() {
+        let data = made::data();
+        let mut walk = made::walk(&made::rig(2.0), &data, &[]);
+        walk.counts = walk.counts.iter().map(|n| 4.0 * n).collect();
+        let mut fitted = walk.best.clone();
+        for (block, n) in fitted.blocks.iter_mut().zip(walk.board.samples()) {
+            *block = [2.0, 1.0, 1.0, 1.0].map(|level| level * n).to_vec();
+        }
+        assert!(walk.leaves(&fitted) > 1.2, "{}", walk.leaves(&fitted));
+        for (block, n) in fitted.blocks.iter_mut().zip(walk.board.samples()) {
+            *block = [1.3, 1.0, 1.0, 1.0].map(|level| level * n).to_vec();
+        }
+        assert!(walk.leaves(&fitted) < 1.2, "{}", walk.leaves(&fitted));
+    }
+
+    #[test]
+    fn what_lasts_for_three_blocks_is_no_block_gone_astray() {
+        let with = |far: &[usize]| -> Vec<f64> {
+            (0..40).map(|k| if far.contains(&k) { 30.0 } else { 0.9 }).collect()
+        };
+        assert!((run(&with(&[7, 8, 9])) - 30.0).abs() < 1e-12);
+        assert!(run(&with(&[7, 8, 10, 20])) < 1.0, "never three in a row");
+        // Where half of the blocks are far off the middle one is, too.
+        assert!((run(&with(&(0..30).collect::<Vec<usize>>())) - 1.0).abs() < 1e-12);
+        assert!(run(&[]) < 1.0);
+    }
+}
