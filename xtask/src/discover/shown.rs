@@ -190,7 +190,9 @@ pub(super) fn sounds(frequency: f64) -> String {
 /// Where the force of a map acts.
 pub(super) fn acts(told: &Told, map: &MapOf) -> String {
     let most = map.at.iter().zip(&map.force).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    let Some((at, force)) = most else { return "no place stands out".to_owned() };
+    let Some((at, force)) = most.filter(|_| map.shrink > 0.0) else {
+        return "no place of the motion, the drive or the record stands out".to_owned();
+    };
     format!(
         "what is left acts over {}, most at {} {} with {} {}; a map takes away {} % of it",
         map.axis,

@@ -2,16 +2,32 @@
 
 use super::ALIKE;
 use crate::verdict::{Discovery, Verdict};
-use identify::{Hold, fit::hold};
+use identify::{
+    Hold,
+    effects::{Kind, LAWS},
+    fit::hold,
+};
 use std::cmp::Ordering;
 
 /// The other way between samples, if beside the model that was `found` with one the record speaks for it; or for neither
-/// where something is found, which the wrong one of the two may have asked for.
+/// where something is found that the wrong one of the two may have asked for.
 pub(super) fn other_hold(found: &Discovery, hold: Hold, again: Option<hold::Told>) -> Option<Hold> {
     let again = again?;
     let other = if hold == Hold::Linear { Hold::ZeroOrder } else { Hold::Linear };
-    let asked = !matches!(found.verdict, Verdict::NothingMissing | Verdict::Parameter);
+    let asked = match (found.verdict, found.effects.as_slice()) {
+        (Verdict::NothingMissing | Verdict::Parameter, _) => false,
+        (Verdict::Effect, [only]) => only.set.iter().any(|name| comes_late(name)),
+        _ => true,
+    };
     (again.hold == other || asked && !again.sure).then_some(other)
+}
+
+/// Whether an effect may be half a sample that an input comes late by, or what makes up for it: what is confused with a
+/// delay, and what stands between motor and load.
+fn comes_late(name: &str) -> bool {
+    let Some(kind) = LAWS.iter().find(|kind| kind.about().name == name) else { return false };
+    let delay = Kind::InputDelay.about();
+    name == delay.name || delay.confused.contains(&name) || !kind.tried().is_empty()
 }
 
 /// Whether an answer leaves less than another, or as much with fewer effects.
@@ -28,7 +44,7 @@ pub(super) fn simpler(one: &Discovery, other: &Discovery) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Discovery, Hold, Verdict, hold::Told, other_hold, simpler};
-    use crate::walk::made;
+    use crate::{verdict::Found, walk::made};
 
     /// An answer with so many effects that leaves so much.
     fn answer(effects: usize, left: f64) -> Discovery {
@@ -56,10 +72,20 @@ mod tests {
         let found = |verdict: Verdict| Discovery { verdict, ..answer(1, 1.0) };
         let told = |hold: Hold, sure: bool| Some(Told { hold, sure });
         let (line, step) = (Hold::Linear, Hold::ZeroOrder);
-        let effect = found(Verdict::Effect);
+        let named = |name: &'static str| {
+            let (values, separated_by) = (Vec::new(), String::new());
+            let only = Found { name, set: vec![name], values, shrink: 1.0, t: 9.0, separated_by };
+            Discovery { effects: vec![only], ..found(Verdict::Effect) }
+        };
+        let effect = named("viscous");
         assert_eq!(other_hold(&effect, line, told(step, true)), Some(step), "it says so");
         assert_eq!(other_hold(&effect, line, told(line, false)), Some(step), "it is not sure");
         assert_eq!(other_hold(&effect, step, told(step, true)), None);
+        let wave = named("cogging");
+        assert_eq!(other_hold(&wave, line, told(step, true)), Some(step), "it says so");
+        assert_eq!(other_hold(&wave, line, told(line, false)), None, "no time asks for a wave");
+        let more = found(Verdict::Partial);
+        assert_eq!(other_hold(&more, line, told(line, false)), Some(step), "something is left");
         let nothing = found(Verdict::NothingMissing);
         assert_eq!(other_hold(&nothing, line, told(line, false)), None, "nothing asks for it");
     }

@@ -14,28 +14,21 @@ use crate::Hold;
 use crate::march::{Model, Passage, deviations, passages};
 use nalgebra::{DMatrix, DVector};
 
+/// So many columns are made white at once.
+const AT_ONCE: usize = 32;
+
 /// A step of the input is a jump for as much as it is more than so many times those beside it, or the noise.
 const JUMP: f64 = 4.0;
-
-/// From one sample to the next.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Passing {
-    /// What is foretold of the states from those before, A.
-    on: DMatrix<f64>,
-    /// What is foretold of the residuals, C, each in units of its sensor's noise.
-    seen: DMatrix<f64>,
-    /// The inverse of Cholesky's factor of the covariance of what is not foretold of them.
-    white: DMatrix<f64>,
-    /// What that says of the states: Kalman's gain.
-    gain: DMatrix<f64>,
-}
 
 /// The innovations of a window's residuals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Whitening {
     channels: usize,
     states: usize,
-    passings: Vec<Passing>,
+    /// From each sample to the next, row by row: what is foretold of the states from those before, A; what is foretold of
+    /// the residuals, C, each in units of its sensor's noise; what the rest says of the states, Kalman's gain; and the
+    /// inverse of Cholesky's factor of the covariance of that rest.
+    passings: Vec<f64>,
 }
 
 impl Whitening {
@@ -63,53 +56,77 @@ impl Whitening {
             if !covariance.iter().all(|value| value.is_finite()) {
                 return None;
             }
-            passings.push(Passing {
-                on: by.rows(0, states).into_owned(),
-                seen: by.rows(states, channels).into_owned(),
-                white: factor.l().try_inverse()?,
-                gain,
-            });
+            for part in [&by, &gain, &factor.l().try_inverse()?] {
+                passings.extend(
+                    part.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<f64>>()),
+                );
+            }
         }
         Some(Self { channels, states, passings })
     }
 
-    /// How many residuals it is for.
-    pub(super) fn rows(&self) -> usize {
-        self.channels * (self.passings.len() + 1)
+    /// How many numbers a passing from sample to sample has.
+    fn numbers(&self) -> usize {
+        let (n, c) = (self.states, self.channels);
+        (n + c) * n + n * c + c * c
     }
 
-    /// Makes the first residuals of `rows` white, as many as it is for.
+    /// Makes the residuals of `rows` white, sample by sample, and leaves those after the last sample as they are.
     pub fn apply(&self, rows: &mut [f64]) {
-        let (n, channels) = (self.states, self.channels);
-        let (mut now, mut next) = (vec![0.0; n], vec![0.0; n]);
-        let mut fresh = vec![0.0; channels];
-        let samples = rows[..self.rows()].chunks_exact_mut(channels).skip(1);
-        for (rows, passing) in samples.zip(&self.passings) {
-            for (c, (fresh, row)) in fresh.iter_mut().zip(rows.iter()).enumerate() {
-                let foretold: f64 =
-                    now.iter().enumerate().map(|(j, s)| passing.seen[(c, j)] * s).sum();
-                *fresh = row - foretold;
-            }
-            for (i, next) in next.iter_mut().enumerate() {
-                let on: f64 = now.iter().enumerate().map(|(j, s)| passing.on[(i, j)] * s).sum();
-                let told: f64 =
-                    fresh.iter().enumerate().map(|(c, e)| passing.gain[(i, c)] * e).sum();
-                *next = on + told;
-            }
-            for (c, row) in rows.iter_mut().enumerate() {
-                *row = (0..=c).map(|k| passing.white[(c, k)] * fresh[k]).sum();
-            }
-            std::mem::swap(&mut now, &mut next);
-        }
+        let stride = rows.len();
+        self.apply_columns(rows, stride);
     }
 
     /// The same of every column of `all`.
     pub fn apply_all(&self, all: &mut DMatrix<f64>) {
         let rows = all.nrows();
-        for column in all.as_mut_slice().chunks_exact_mut(rows) {
-            self.apply(column);
+        for columns in all.as_mut_slice().chunks_mut((AT_ONCE * rows).max(1)) {
+            self.apply_columns(columns, rows);
         }
     }
+
+    /// The same of columns of so many rows, all of them from sample to sample: what leads from one to the next is read
+    /// once.
+    fn apply_columns(&self, columns: &mut [f64], rows: usize) {
+        let (n, c) = (self.states, self.channels);
+        if rows == 0 || n == 0 || self.passings.is_empty() {
+            return;
+        }
+        let many = columns.len() / rows;
+        let (mut now, mut next) = (vec![0.0; n * many], vec![0.0; n * many]);
+        let mut fresh = vec![0.0; c];
+        for (sample, passing) in self.passings.chunks_exact(self.numbers()).enumerate() {
+            let (on, passing) = passing.split_at(n * n);
+            let (seen, passing) = passing.split_at(c * n);
+            let (gain, white) = passing.split_at(n * c);
+            let all = columns
+                .chunks_exact_mut(rows)
+                .zip(now.chunks_exact(n).zip(next.chunks_exact_mut(n)));
+            for (column, (now, next)) in all {
+                let residuals = &mut column[(sample + 1) * c..][..c];
+                for ((fresh, row), seen) in
+                    fresh.iter_mut().zip(residuals.iter()).zip(seen.chunks_exact(n))
+                {
+                    *fresh = row - dot(seen, now);
+                }
+                for ((next, on), gain) in
+                    next.iter_mut().zip(on.chunks_exact(n)).zip(gain.chunks_exact(c))
+                {
+                    *next = dot(on, now) + dot(gain, &fresh);
+                }
+                for (k, (row, white)) in residuals.iter_mut().zip(white.chunks_exact(c)).enumerate()
+                {
+                    *row = dot(&white[..=k], &fresh[..=k]);
+                }
+            }
+            std::mem::swap(&mut now, &mut next);
+        }
+    }
+}
+
+/// The sum of the products.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl Problem<'_> {
@@ -195,7 +212,6 @@ mod tests {
         let by = |k: usize| DMatrix::from_fn(4, 2, |i, j| entry(k, i, j));
         let noise = |k: usize| DVector::from_fn(4, |i, _| 2.0 * entry(k, i, 5));
         let whitening = Whitening::of(2, (0..5).map(|k| (by(k), noise(k)))).unwrap();
-        assert_eq!(whitening.rows(), 12);
         // What one deviation of each interval's noise does to all samples, followed by hand.
         let mut b = DMatrix::zeros(12, 5);
         for of in 0..5 {
