@@ -4,7 +4,7 @@ use super::{
     Run, Told,
     answer::identified,
     picture,
-    shown::{acts, axis_unit, counted, physics, sounds, telling},
+    shown::{acts, axis_unit, between, counted, physics, sounds, telling},
     verdict,
 };
 use crate::{
@@ -78,14 +78,21 @@ fn found(told: &Told) -> FitPart {
     });
     let rows: Vec<Vec<String>> = rows.collect();
     let head = ["effect", "value", "found ± s.e.", "of the excess"];
+    let doctor = format!(
+        "The record's doctor has {} and {}.{}",
+        counted(check.problems, "problem"),
+        counted(check.notes, "note"),
+        safe(&gravest)
+    );
     FitPart {
         title: "What was found".to_owned(),
-        text: vec![format!(
-            "The record's doctor has {} and {}.{}",
-            counted(check.problems, "problem"),
-            counted(check.notes, "note"),
-            safe(&gravest)
-        )],
+        text: [
+            Some(doctor),
+            told.found.hold.map(|hold| sentence(&format!("the input {}", between(hold)))),
+        ]
+        .into_iter()
+        .flatten()
+        .collect(),
         head: if rows.is_empty() { Vec::new() } else { words(&head) },
         rows,
         list,
@@ -234,6 +241,8 @@ fn confirmed(told: &Told) -> Option<FitPart> {
 fn left(told: &Told) -> Option<FitPart> {
     let map = told.found.map.as_ref()?;
     let (unit, force) = (axis_unit(told, map.axis), axis_unit(told, "drive"));
+    // A map that takes nothing away shows noise.
+    let shows = map.shrink > 0.0;
     let panel = FitPanel {
         x: format!("{} [{unit}]", map.axis),
         y: format!("what is left [{force}]"),
@@ -247,12 +256,15 @@ fn left(told: &Told) -> Option<FitPart> {
             .flatten()
             .map(|text| sentence(&text))
             .collect(),
-        figures: vec![FitFigure {
-            title: format!("What is left over the {}", map.axis),
-            caption: "A force without a name, fitted piece by piece.".to_owned(),
-            panels: vec![panel],
-            over_time: true,
-        }],
+        figures: shows
+            .then(|| FitFigure {
+                title: format!("What is left over the {}", map.axis),
+                caption: "A force without a name, fitted piece by piece.".to_owned(),
+                panels: vec![panel],
+                over_time: true,
+            })
+            .into_iter()
+            .collect(),
         ..part()
     })
 }
