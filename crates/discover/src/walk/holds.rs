@@ -10,14 +10,16 @@ use identify::{
 use std::cmp::Ordering;
 
 /// The other way between samples, if beside the model that was `found` with one the record speaks for it; or for neither
-/// where something is found that the wrong one of the two may have asked for.
+/// where something is found that the wrong one of the two may have asked for; and wherever something is left.
 pub(super) fn other_hold(found: &Discovery, hold: Hold, again: Option<hold::Told>) -> Option<Hold> {
     let again = again?;
     let other = if hold == Hold::Linear { Hold::ZeroOrder } else { Hold::Linear };
     let asked = match (found.verdict, found.effects.as_slice()) {
         (Verdict::NothingMissing | Verdict::Parameter, _) => false,
+        // A model that lacks more is no witness.
+        (Verdict::Partial | Verdict::NotInLibrary, _) => return Some(other),
         (Verdict::Effect, [only]) => only.set.iter().any(|name| comes_late(name)),
-        _ => true,
+        (Verdict::Effect, _) => true,
     };
     (again.hold == other || asked && !again.sure).then_some(other)
 }
@@ -85,7 +87,7 @@ mod tests {
         assert_eq!(other_hold(&wave, line, told(step, true)), Some(step), "it says so");
         assert_eq!(other_hold(&wave, line, told(line, false)), None, "no time asks for a wave");
         let more = found(Verdict::Partial);
-        assert_eq!(other_hold(&more, line, told(line, false)), Some(step), "something is left");
+        assert_eq!(other_hold(&more, line, told(line, true)), Some(step), "something is left");
         let nothing = found(Verdict::NothingMissing);
         assert_eq!(other_hold(&nothing, line, told(line, false)), None, "nothing asks for it");
     }
