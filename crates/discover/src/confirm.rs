@@ -17,6 +17,17 @@ const TIMES: u64 = 3;
 /// The first sample by which a command is judged: the samples before it are the drive's own coming to rest.
 const FROM: usize = 49;
 
+/// Two models run on a record, without any help from it.
+#[derive(Debug, Clone)]
+pub struct Confirmed {
+    /// The misfit of every channel.
+    pub gap: Vec<Gap>,
+    /// The error of the simulated command, before and after [%]: 100 ‖u − û‖/‖u‖ over the samples from the 50th on, where
+    /// û is the command that the rig's controller makes with the model in its loop. None where the rig declares no
+    /// controller.
+    pub command: Option<[f64; 2]>,
+}
+
 /// Runs `nominal` and `model` on `data`: in closed loop where the rig declares its controller, else in one run from the
 /// first sample to the last.
 ///
@@ -25,7 +36,7 @@ const FROM: usize = 49;
 ///
 /// # Errors
 /// A record too short or still, and a `model` that has no motion on it.
-pub fn confirm(nominal: &Rig, model: &Rig, data: &Data) -> Result<Vec<Gap>, FitError> {
+pub fn confirm(nominal: &Rig, model: &Rig, data: &Data) -> Result<Confirmed, FitError> {
     let before = match simulate(nominal, data, None) {
         Err(FitError::NoMotion) => None,
         other => Some(other?),
@@ -43,7 +54,11 @@ pub fn confirm(nominal: &Rig, model: &Rig, data: &Data) -> Result<Vec<Gap>, FitE
             floor: gap.noise.hypot(*spread),
         }
     });
-    Ok(all.collect())
+    let command = command_error(&after).map(|after| {
+        let before = before.as_ref().and_then(command_error);
+        [before.unwrap_or(f64::NAN), after]
+    });
+    Ok(Confirmed { gap: all.collect(), command })
 }
 
 /// How far the noise of the recorded input moves each channel [its unit], root mean square. A controller's command is
@@ -69,18 +84,13 @@ fn spread(model: &Rig, data: &Data, plain: &Simulated) -> Vec<f64> {
     squares.into_iter().map(|(sum, count)| (sum / f64::max(count, 1.0)).sqrt()).collect()
 }
 
-/// 100 ‖u − û‖/‖u‖ over the samples from the 50th on, where û is the command that the rig's controller makes with the
-/// model in its loop; none where the rig declares no controller.
-///
-/// # Errors
-/// A record too short or still, and a model that has no motion on it.
-pub fn command_error(rig: &Rig, data: &Data) -> Result<Option<f64>, FitError> {
-    let run = simulate(rig, data, None)?;
-    let Some(command) = run.traces.iter().find(|t| t.channel == "input") else { return Ok(None) };
+/// The error of the command that a run made [%]; none where it made none.
+fn command_error(run: &Simulated) -> Option<f64> {
+    let command = run.traces.iter().find(|t| t.channel == "input")?;
     let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
     let pairs = command.measured.iter().zip(&command.after).skip(FROM);
     let off = norm(&mut pairs.map(|(u, made)| u - made));
-    Ok(Some(100.0 * off / norm(&mut command.measured.iter().skip(FROM).copied())))
+    Some(100.0 * off / norm(&mut command.measured.iter().skip(FROM).copied()))
 }
 
 /// The unit of a channel.

@@ -24,7 +24,7 @@ mod walk;
 
 mod wrong;
 
-pub use confirm::{command_error, confirm};
+pub use confirm::{Confirmed, confirm};
 pub use nudge::{Residual, residual};
 pub use verdict::{
     Discovery, Found, Gap, Limit, MapOf, Moved, Options, Ranked, Share, Value, Verdict,

@@ -13,11 +13,11 @@ use crate::{
     output,
     recorded::{read_record, read_rig, safe},
 };
-use discover::{Discovery, Gap, Options, Verdict};
+use discover::{Confirmed, Discovery, Gap, Options, Verdict};
 use identify::{
     Rig,
     doctor::{Examination, Finding, Severity, examine},
-    fit::{Data, FitError, Trace, simulate},
+    fit::{Data, FitError, Trace, moves, simulate},
 };
 use page::Pictures;
 use record::write_whole;
@@ -85,7 +85,7 @@ pub(crate) fn discover(arguments: &DiscoverArgs) -> Result<Exit, Failure> {
     }
     let model = model(&rig, &found);
     // A model without a motion explains nothing, whatever the answer is.
-    if let Err(FitError::NoMotion) = simulate(&model, &data, rigs_window(&rig)) {
+    if !moves(&model, &data, rigs_window(&rig)).map_err(of_file(&arguments.record))? {
         return Err(of_file(&arguments.record)(FitError::NoMotion));
     }
     let mut runs = Vec::new();
@@ -145,14 +145,8 @@ fn model(rig: &Rig, found: &Discovery) -> Rig {
 }
 
 fn run((nominal, model): (&Rig, &Rig), data: &Data, held: bool) -> Result<Run, FitError> {
-    let command = match discover::command_error(model, data)? {
-        None => None,
-        Some(after) => {
-            let before = discover::command_error(nominal, data).ok().flatten();
-            Some([before.unwrap_or(f64::NAN), after])
-        }
-    };
-    Ok(Run { held, gap: discover::confirm(nominal, model, data)?, command })
+    let Confirmed { gap, command } = discover::confirm(nominal, model, data)?;
+    Ok(Run { held, gap, command })
 }
 
 /// Writes the model with the effect and the answer.

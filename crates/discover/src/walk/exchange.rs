@@ -26,9 +26,11 @@ impl Walk<'_> {
         for place in 0..effects.len().saturating_sub(1) {
             let (before, ranked) = (self.best.clone(), self.ranking.len());
             let name = effects[place].name;
+            self.reached = self.judged(&before.blocks).level().max(1.0);
             self.best = self.without(&before, name)?;
             self.origin = self.best.clone();
             let again = self.step(context, options, (effects.len(), None))?;
+            self.reached = 1.0;
             self.ranking.truncate(ranked);
             let [then, now] = [&before, &self.best].map(|f| self.judged(&f.blocks));
             match again {

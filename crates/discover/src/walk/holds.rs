@@ -1,35 +1,84 @@
 //! What the input does between its samples, where the record is not sure of it: of two answers the simpler.
 
-use super::ALIKE;
-use crate::verdict::{Discovery, Verdict};
+use super::{ALIKE, End, FIRST, Walk, answer::MORE, named::SURE, polish::lacking, walked};
+use crate::{
+    board::{Board, Fitted},
+    model::Candidate,
+    verdict::{Discovery, Options},
+};
 use identify::{
-    Hold,
-    effects::{Kind, LAWS},
-    fit::hold,
+    Hold, Rig,
+    fit::{Data, FitError, hold, starts},
 };
 use std::cmp::Ordering;
 
-/// The other way between samples, if beside the model that was `found` with one the record speaks for it; or for neither
-/// where something is found that the wrong one of the two may have asked for; and wherever something is left.
-pub(super) fn other_hold(found: &Discovery, hold: Hold, again: Option<hold::Told>) -> Option<Hold> {
-    let again = again?;
-    let other = if hold == Hold::Linear { Hold::ZeroOrder } else { Hold::Linear };
-    let asked = match (found.verdict, found.effects.as_slice()) {
-        (Verdict::NothingMissing | Verdict::Parameter, _) => false,
-        // A model that lacks more is no witness.
-        (Verdict::Partial | Verdict::NotInLibrary, _) => return Some(other),
-        (Verdict::Effect, [only]) => only.set.iter().any(|name| comes_late(name)),
-        (Verdict::Effect, _) => true,
+/// Looks for what the model `rig` of the record `data` lacks. Where the rig file does not say what the input does between
+/// its samples the record does: beside the nominal model, beside the nearest of every round, and once more beside the
+/// last one.
+pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitError> {
+    let Some(told) = hold::told(rig, data)? else {
+        return walked(rig, data, None, options).map(|end| end.found);
     };
-    (again.hold == other || asked && !again.sure).then_some(other)
+    let with = |hold: Hold, asks: bool| -> Result<End, FitError> {
+        let [own, other] = [hold, opposite(hold)].map(|hold| Data { hold, ..data.clone() });
+        let rig = rig.clone().saying(Some(hold));
+        let end = walked(&rig, &own, Some(&other).filter(|_| asks), options)?;
+        Ok(End { found: Discovery { hold: Some(hold), ..end.found }, ..end })
+    };
+    let first = with(told.hold, true)?;
+    if !first.other {
+        return Ok(first.found);
+    }
+    let second = with(opposite(told.hold), false)?.found;
+    Ok(if simpler(&second, &first.found) { second } else { first.found })
 }
 
-/// Whether an effect may be half a sample that an input comes late by, or what makes up for it: what is confused with a
-/// delay, and what stands between motor and load.
-fn comes_late(name: &str) -> bool {
-    let Some(kind) = LAWS.iter().find(|kind| kind.about().name == name) else { return false };
-    let delay = Kind::InputDelay.about();
-    name == delay.name || delay.confused.contains(&name) || !kind.tried().is_empty()
+/// The other of the two ways between samples.
+fn opposite(hold: Hold) -> Hold {
+    if hold == Hold::Linear { Hold::ZeroOrder } else { Hold::Linear }
+}
+
+impl Walk<'_> {
+    /// A model refitted to the record with its input the other way, and by how many standard errors that is nearer; none
+    /// where it is not asked.
+    fn the_other_way(&self, rig: &Rig, near: &Fitted) -> Result<Option<(f64, f64)>, FitError> {
+        let Some(other) = self.other else { return Ok(None) };
+        let board = Board { data: other, ..self.board.clone() };
+        let x = starts::nominal(&board.problem(rig, |_| true)?);
+        let there = board.fit(rig, Some((&x, &near.pieces)), &FIRST)?;
+        let [here, there] = [near, &there].map(|fitted| self.judged(&fitted.blocks));
+        Ok(Some((here.against(&there), there.level() / here.level())))
+    }
+
+    /// Whether the nearest of the candidates, or without one the last model, is surely much nearer to the record with its
+    /// input the other way: then this is the wrong one, and what is missing with it is another thing.
+    pub(super) fn turns(&self, all: &[Candidate]) -> Result<bool, FitError> {
+        let all = all.iter().map(|candidate| &candidate.fitted).chain([&self.best]);
+        let level = |fitted: &&Fitted| self.judged(&fitted.blocks).level();
+        let near = all.min_by(|a, b| level(a).total_cmp(&level(b))).unwrap_or(&self.best);
+        let other = self.the_other_way(&near.rig, near)?;
+        Ok(other.is_some_and(|(t, share)| t > SURE && ALIKE * share < 1.0))
+    }
+
+    /// Whether the record may be simpler with its input the other way: the last model is surely nearer so, or is as near
+    /// without one of its effects, or leaves something and is not surely further off.
+    pub(super) fn may_be_other(&self) -> Result<bool, FitError> {
+        let best = &self.best;
+        let Some((t, _)) = self.the_other_way(&best.rig, best)? else { return Ok(false) };
+        let leaves = self.leaves(best) > MORE || self.struck();
+        if t > SURE || leaves && t > -SURE {
+            return Ok(true);
+        }
+        for effect in &best.rig.effects {
+            let without = lacking(&best.rig, &effect.name);
+            let given = self.given.effects.iter().any(|own| own.name == effect.name);
+            let other = self.the_other_way(&without, best)?;
+            if !given && other.is_some_and(|(_, share)| share < ALIKE) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
 }
 
 /// Whether an answer leaves less than another, or as much with fewer effects.
@@ -45,8 +94,8 @@ pub(super) fn simpler(one: &Discovery, other: &Discovery) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Discovery, Hold, Verdict, hold::Told, other_hold, simpler};
-    use crate::{verdict::Found, walk::made};
+    use super::{Discovery, simpler};
+    use crate::{verdict::Verdict, walk::made};
 
     /// An answer with so many effects that leaves so much.
     fn answer(effects: usize, left: f64) -> Discovery {
@@ -67,29 +116,6 @@ mod tests {
             hold: None,
             rig,
         }
-    }
-
-    #[test]
-    fn the_other_way_between_samples_is_tried_where_the_record_may_speak_for_it() {
-        let found = |verdict: Verdict| Discovery { verdict, ..answer(1, 1.0) };
-        let told = |hold: Hold, sure: bool| Some(Told { hold, sure });
-        let (line, step) = (Hold::Linear, Hold::ZeroOrder);
-        let named = |name: &'static str| {
-            let (values, separated_by) = (Vec::new(), String::new());
-            let only = Found { name, set: vec![name], values, shrink: 1.0, t: 9.0, separated_by };
-            Discovery { effects: vec![only], ..found(Verdict::Effect) }
-        };
-        let effect = named("viscous");
-        assert_eq!(other_hold(&effect, line, told(step, true)), Some(step), "it says so");
-        assert_eq!(other_hold(&effect, line, told(line, false)), Some(step), "it is not sure");
-        assert_eq!(other_hold(&effect, step, told(step, true)), None);
-        let wave = named("cogging");
-        assert_eq!(other_hold(&wave, line, told(step, true)), Some(step), "it says so");
-        assert_eq!(other_hold(&wave, line, told(line, false)), None, "no time asks for a wave");
-        let more = found(Verdict::Partial);
-        assert_eq!(other_hold(&more, line, told(line, true)), Some(step), "something is left");
-        let nothing = found(Verdict::NothingMissing);
-        assert_eq!(other_hold(&nothing, line, told(line, false)), None, "nothing asks for it");
     }
 
     #[test]

@@ -55,6 +55,9 @@ pub(super) fn walk<'a>(rig: &Rig, data: &'a Data, loose: &[(String, f64)]) -> Wa
         ranking: Vec::new(),
         strayed: Vec::new(),
         before_held: None,
+        other: None,
+        turned: false,
+        reached: 1.0,
     }
 }
 

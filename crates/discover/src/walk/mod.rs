@@ -26,15 +26,14 @@ use crate::{
     verdict::{Discovery, Found, Options, Ranked},
 };
 use answer::{NEARLY_ALL, NOISY};
-use holds::{other_hold, simpler};
+pub use holds::discover;
 use identify::{
-    Hold, Rig,
+    Rig,
     effects::Context,
-    fit::{Data, FitError, binding, hold, search::Patience},
+    fit::{Data, FitError, binding, search::Patience},
 };
 use named::{ALL, NOTHING, found};
 use polish::CLOSE_TO;
-use std::ops::RangeInclusive;
 use waves::waves;
 
 /// The windows of a block in a first search.
@@ -65,9 +64,6 @@ const ALIKE: f64 = 1.1;
 /// Dry friction and viscous friction.
 const PLAIN: usize = 2;
 
-/// So late an input may be held, and not late [sampling times].
-const HALF: RangeInclusive<f64> = 0.3..=0.7;
-
 /// The walk, as far as it has come.
 struct Walk<'a> {
     board: Board<'a>,
@@ -86,31 +82,29 @@ struct Walk<'a> {
     strayed: Vec<(String, f64)>,
     /// The last model before what had strayed in it was held.
     before_held: Option<strayed::Loosened>,
+    /// The record with its input the other way between its samples, where that is asked.
+    other: Option<&'a Data>,
+    /// Whether it is nearer so.
+    turned: bool,
+    /// What a model of the record is known to leave, or the floor [1].
+    reached: f64,
 }
 
-/// Looks for what the model `rig` of the record `data` lacks. Where the rig file does not say what the input does between
-/// its samples the record does: beside the nominal model, and once more beside the last one.
-pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitError> {
-    let Some(told) = hold::told(rig, data)? else { return walked(rig, data, options) };
-    let with = |hold: Hold| -> Result<Discovery, FitError> {
-        let (rig, data) = (rig.clone().saying(Some(hold)), Data { hold, ..data.clone() });
-        Ok(Discovery { hold: Some(hold), ..walked(&rig, &data, options)? })
-    };
-    let found = with(told.hold)?;
-    let delay = found.rig.value("input_delay.delay").unwrap_or(0.0) / data.sample_time();
-    // Half a sample late is what an input is that is held.
-    let again = if told.hold == Hold::Linear && HALF.contains(&delay) {
-        Some(Hold::ZeroOrder)
-    } else {
-        other_hold(&found, told.hold, hold::told(&found.rig.clone().asking(), data)?)
-    };
-    let Some(again) = again else { return Ok(found) };
-    let other = with(again)?;
-    Ok(if simpler(&other, &found) { other } else { found })
+/// How a walk ends.
+struct End {
+    found: Discovery,
+    /// Whether the record may be simpler with its input the other way.
+    other: bool,
 }
 
-/// The same where it is said what the input does.
-fn walked(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitError> {
+/// Looks for what the model `rig` of the record `data` lacks; whether the record is nearer with its input as in `other`
+/// is asked on the way.
+fn walked(
+    rig: &Rig,
+    data: &Data,
+    other: Option<&Data>,
+    options: &Options,
+) -> Result<End, FitError> {
     let still;
     let data = if data.force.is_some() {
         still = crate::rest::rested(data);
@@ -151,6 +145,9 @@ fn walked(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitErr
         ranking: Vec::new(),
         strayed,
         before_held: None,
+        other,
+        turned: false,
+        reached: 1.0,
     };
     walk.begun_anew()?;
     walk.near_the_floor(CLOSE_TO)?;
@@ -160,12 +157,18 @@ fn walked(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitErr
     // To say how little of each would show.
     let start = Gram::of(&walk.board, &refit, (&context, true))?;
     let mut effects = walk.rounds(&context, options, &start)?;
-    walk.drop_each(&mut effects)?;
-    walk.exchange_each(&mut effects, &context, options)?;
+    if !walk.turned {
+        walk.drop_each(&mut effects)?;
+        let other = walk.other.take();
+        walk.exchange_each(&mut effects, &context, options)?;
+        walk.other = other;
+    }
     let refit = walk.polish(&refit, options.seed)?;
     walk.drop_unsure(rig, &refit, &mut effects)?;
     let before = walk.board.judged(&fixed, None)?;
-    walk.answer((rig, &before, &refit), (effects, &start), &context)
+    let other = walk.turned || walk.may_be_other()?;
+    let found = walk.answer((rig, &before, &refit), (effects, &start), &context)?;
+    Ok(End { found, other })
 }
 
 /// The blocks of `data` with their floor, and the nominal model refitted on them.
@@ -259,7 +262,7 @@ impl Walk<'_> {
             let first = Some(start).filter(|_| round == 0);
             let before = (self.board.clone(), self.best.clone());
             let found = self.step(context, options, (round, first))?;
-            let found = if bare && round == 0 {
+            let found = if bare && round == 0 && !self.turned {
                 self.plain(found.as_ref(), context, &before.1)?
             } else {
                 found.into_iter().collect()
@@ -299,8 +302,13 @@ impl Walk<'_> {
         let candidates = self.candidates(context, options, (round, start))?;
         let all = self.finely(candidates)?;
         let mut all = self.told_apart(&now, all, context)?;
+        if self.turns(&all)? {
+            self.turned = true;
+            return Ok(None);
+        }
         // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.
-        let joins = now.level() > ABOVE && !self.explained(now.level());
+        let least = if round == 0 { ABOVE } else { NOTHING };
+        let joins = now.level() > least && !self.explained(now.level());
         if joins && !all.iter().any(|c| self.down(&now, c, context)) {
             let joints = self.begun(self.points()[0], context);
             all.extend(self.finely(joints)?);
@@ -335,7 +343,9 @@ impl Walk<'_> {
     /// Whether a candidate explains all that is missing.
     fn down(&self, now: &Judged, candidate: &Candidate, context: &Context) -> bool {
         let level = self.judged(&candidate.fitted.blocks).level();
-        level < ABOVE && shrink(now.level(), level) > ALL && self.fits(candidate, context)
+        level < ABOVE * self.reached
+            && shrink(now.level(), level) > ALL
+            && self.fits(candidate, context)
     }
 
     /// The nearest of the candidates, and what it leaves.

@@ -178,9 +178,7 @@ impl<'a> Walk<'a> {
 
     /// A model refitted without one of its effects.
     pub(super) fn without(&self, fitted: &Fitted, name: &str) -> Result<Fitted, FitError> {
-        let mut rig = fitted.rig.clone();
-        rig.effects.retain(|effect| effect.name != name);
-        rig.free.retain(|free| !free.starts_with(&format!("{name}.")));
+        let rig = lacking(&fitted.rig, name);
         let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
         self.board.fit(&rig, Some((&x, &fitted.pieces)), &REFIT)
     }
@@ -245,6 +243,14 @@ impl<'a> Walk<'a> {
         }
         Ok(())
     }
+}
+
+/// `rig` without one of its effects.
+pub(super) fn lacking(rig: &Rig, name: &str) -> Rig {
+    let mut rig = rig.clone();
+    rig.effects.retain(|effect| effect.name != name);
+    rig.free.retain(|free| !free.starts_with(&format!("{name}.")));
+    rig
 }
 
 #[cfg(test)]

@@ -40,6 +40,9 @@ impl<D: Real> At<'_, D> {
     /// What springs and weight pull back with [N].
     pub fn pull(&self) -> D {
         let pull = self.balance.stiffness * self.q - self.balance.constant;
+        if self.balance.gravity.re() == 0.0 {
+            return pull;
+        }
         pull + self.balance.gravity * self.q.sin()
     }
 

@@ -66,6 +66,35 @@ pub struct Simulated {
     pub way: Way,
 }
 
+/// Whether the model of `rig` has a motion on the inputs of `data`: in one of the windows at least, as [`simulate`] takes
+/// them.
+///
+/// # Errors
+/// As `simulate` has them, but for the motion.
+pub fn moves(rig: &Rig, data: &Data, window: Option<f64>) -> Result<bool, FitError> {
+    let mut problem = super::unfree(rig, data)?;
+    if data.force.is_none() && !problem.closed_loop && window.is_some() {
+        problem.windows = blocks::blocks(data, window);
+    }
+    Ok(simulable(&problem).is_some())
+}
+
+/// Steps may be so many times as rough as a fit takes them where a model has no motion with these.
+const ROUGHER: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
+
+/// What the steps may be wrong by for one of the windows at least to have a motion: a small load on a hard joint may ask
+/// for more steps than a window may take. None where no window has one. A window that is lost says nothing of the others.
+fn simulable(problem: &Problem<'_>) -> Option<f64> {
+    let moves = |tolerance: &f64| {
+        let problem = Problem { tolerance: *tolerance, ..problem.clone() };
+        problem.windows.iter().any(|window| {
+            let one = Problem { windows: vec![window.clone()], ..problem.clone() };
+            one.pieces(&[], None).iter().any(|piece| !piece.motion.q.is_empty())
+        })
+    };
+    ROUGHER.map(|rougher| rougher * problem.tolerance).into_iter().find(moves)
+}
+
 /// Runs the model of `rig` on the inputs of `data`: in closed loop where the controller is declared, in windows
 /// of a `window` [s] if one is given, in one run otherwise.
 pub fn simulate(rig: &Rig, data: &Data, window: Option<f64>) -> Result<Simulated, FitError> {
@@ -79,11 +108,9 @@ pub fn simulate(rig: &Rig, data: &Data, window: Option<f64>) -> Result<Simulated
         }
         None => Way::OneRun,
     };
+    let Some(tolerance) = simulable(&problem) else { return Err(FitError::NoMotion) };
+    let problem = Problem { tolerance, ..problem };
     let pieces = models::settled(&problem, &[], None, 2);
-    // A window that is lost says nothing of the others.
-    if pieces.iter().all(|p| p.motion.q.is_empty()) {
-        return Err(FitError::NoMotion);
-    }
     let found =
         Found { x: Vec::new(), misfit: f64::NAN, pieces, end: End::Converged, simulations: [1, 0] };
     let gap = gap(&problem, &found, &found);

@@ -31,7 +31,7 @@ pub mod window;
 
 pub use data::{Data, Seen};
 pub use estimate::Estimate;
-pub use gap::{Misfit, Simulated, Trace, simulate};
+pub use gap::{Misfit, Simulated, Trace, moves, simulate};
 pub use models::{Candidate, candidates};
 
 use crate::Rig;
