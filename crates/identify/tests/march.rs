@@ -4,7 +4,7 @@ use duhem::{Input, MODELS, Parameters, Plant, Rig};
 use identify::{
     Hold,
     fit::binding,
-    march::{Balance, Contact, Drive, Model, Motion, Start, Tolerance, march},
+    march::{Balance, Contact, Drive, Dual, Model, Motion, Start, Tolerance, march, replay},
 };
 use integrate::{Limits, Outcome};
 use simulation::{Task, adaptive::ADAPTIVE};
@@ -167,6 +167,49 @@ fn a_held_force_that_comes_late_moves_a_mass_as_its_own_steps_do() {
             );
         }
         assert_eq!(later.q.len(), time.len() - first);
+    }
+}
+
+#[test]
+fn a_held_force_that_comes_late_finds_a_plant_that_settles_between_two_samples() {
+    // M v̇ = u − c v settles within M/c = 0.3 ms, a thirtieth of the interval: v = u/c (1 − e^(−c t/M)) from the jump on.
+    let text = |delay: f64| {
+        format!(
+            "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 3e-4\nstiffness = 1e-9\n[friction]\n\
+             name = \"none\"\nsigma_2 = 1.0\n[[effect]]\nname = \"input_delay\"\ndelay = {delay}\n[fit]\n\
+             free = [\"input_delay.delay\"]\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n"
+        )
+    };
+    let time = times(4, 100.0);
+    let values = [0.0, 0.0, 1.0, 1.0, -1.0];
+    let run = |delay: f64| {
+        let rig = identify::Rig::parse(&text(delay)).expect("a rig");
+        let model = binding::model::<f64>(&rig, &|_| None);
+        let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::ZeroOrder };
+        let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.contact.states()] };
+        let tolerance = Tolerance { q: 1e-9, v: 1e-7, z: 1e-9, steps: 100_000 };
+        march(&model, &drive, &time, &start, &tolerance).expect("a motion")
+    };
+    for delay in [0.0, 0.0004, 0.002, 0.0098] {
+        let motion = run(delay);
+        let (since, settles) = (0.01 - delay, 3e-4);
+        let v = 1.0 - f64::exp(-since / settles);
+        let q = since - settles * v;
+        assert!((motion.v[3] - v).abs() < 1e-5, "{delay} s late: {} for {v} m/s", motion.v[3]);
+        assert!((motion.q[3] - q).abs() < 1e-7, "{delay} s late: {} for {q} m", motion.q[3]);
+        // And the derivatives by the delay: −v of the displacement.
+        let rig = identify::Rig::parse(&text(delay)).expect("a rig");
+        let model = binding::model::<Dual<2>>(&rig, &|name| {
+            (name == "input_delay.delay").then(|| Dual::variable(delay, 0))
+        });
+        let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::ZeroOrder };
+        let zero = Dual::from(0.0);
+        let start = Start { q: zero, v: zero, z: vec![zero; model.contact.states()] };
+        replay(&model, (&drive, &time), &motion.tape, &start, &mut |i, q, _, _| {
+            if i == 3 {
+                assert!((q.eps[0] + v).abs() < 1e-4, "{delay} s late: {} for {}", q.eps[0], -v);
+            }
+        });
     }
 }
 

@@ -1,6 +1,6 @@
 //! What the input does between the samples, and a controller that makes it.
 
-use super::{Real, run::inputs};
+use super::{Real, course::course};
 use crate::Hold;
 
 /// The input of a plant over a record.
@@ -24,7 +24,7 @@ impl Drive<'_> {
     /// the samples [s] beside it.
     pub(crate) fn begins<D: Real>(&self, delay: Option<(D, &[f64])>) -> Option<D> {
         match self {
-            Self::Recorded { .. } => Some(inputs(self, 0, &[], delay)[0]),
+            Self::Recorded { .. } => Some(course(self, 0, &[], delay).ends[0]),
             Self::Controlled(_) => None,
         }
     }

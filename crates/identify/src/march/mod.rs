@@ -12,6 +12,7 @@
 //! the derivatives of the computed motion itself, so a fit that uses them does not stall.
 
 mod contact;
+mod course;
 mod drive;
 mod dual;
 mod observer;

@@ -7,8 +7,8 @@
 
 use super::{
     Drive, Dual, Model,
+    course::{course, rate},
     plant::Stage,
-    run::{inputs, rate},
     stage::{Base, Seek, velocity},
 };
 
@@ -53,7 +53,8 @@ pub fn observe(
     let (mut v, mut left) = (measured.v[0], vec![0.0]);
     for i in 0..measured.time.len() - 1 {
         let dt = measured.time[i + 1] - measured.time[i];
-        let ends = inputs(drive, i, &[measured.q[i]], model.delay().map(|d| (d, measured.time)));
+        let delay = model.delay().map(|delay| (delay, measured.time));
+        let course = course(drive, i, &[measured.q[i]], delay);
         let moved = measured.q[i] - measured.q[i.saturating_sub(1)];
         let rate = model.balance.gain * rate(drive, measured.time, i);
         // What the sensor shows beside the velocity is no force.
@@ -66,7 +67,7 @@ pub fn observe(
             let toward = between(measured.v) - shown;
             probe.balance.constant = Dual::from(pull + strength * toward);
             let h = dt / STEPS as f64;
-            let u = Dual::from(ends[0] + share * (ends[1] - ends[0]));
+            let u = Dual::from(course.at(share));
             let stage = Stage::of(&probe, [measured.time[i] + share * dt, h], u);
             let base = Base {
                 q: Dual::from(between(measured.q) - v * h),
@@ -104,7 +105,7 @@ fn settled(
 
 /// The states at the first sample: at rest they hold what drives the plant.
 fn start(model: &Model<f64>, drive: &Drive<'_>, measured: &Measured<'_>) -> Vec<f64> {
-    let u = inputs(drive, 0, &[measured.q[0]], None)[0];
+    let u = course(drive, 0, &[measured.q[0]], None).ends[0];
     let others = model.effects_from(0.0, crate::effects::Past::unknown());
     let mut z = model.holding((measured.time[0], u), [measured.q[0], measured.v[0]], &others);
     z.extend(others);

@@ -2,8 +2,9 @@
 
 use super::{
     Drive, Dual, Model, Real, Start, Tape,
+    course::{Course, course, rate},
     plant::Stage,
-    run::{begun, inputs, rate},
+    run::begun,
     stage::{Base, excess},
     tableau::{A, C, GAMMA},
     tape::Step,
@@ -46,8 +47,8 @@ pub fn replay<const P: usize>(
         }
         let shown = model.displacement(state.q, &state.z);
         seen.push(shown);
-        let ends = inputs(drive, i, &seen, model.delay().map(|delay| (delay, time)));
-        let now = [shown, state.v, ends[0]];
+        let course = course(drive, i, &seen, model.delay().map(|delay| (delay, time)));
+        let now = [shown, state.v, course.ends[0]];
         if i < 3 {
             first.push(now);
         }
@@ -66,11 +67,12 @@ pub fn replay<const P: usize>(
         }
         before = now;
         if i + 1 < samples {
-            let steps = &tape.steps[next..tape.until[i]];
-            let dt: f64 = steps.iter().map(|s| s.h).sum();
-            for step in steps {
-                walker.step(&mut state, step, [dt, time[i]], ends);
-            }
+            walker.interval(
+                &mut state,
+                &tape.steps[next..tape.until[i]],
+                [time[i], time[i + 1]],
+                &course,
+            );
             next = tape.until[i];
         }
     }
@@ -124,12 +126,13 @@ pub fn passages<const P: usize>(
         let before = [model.displacement(state.q, &state.z), state.v];
         let delay = model.delay().map(|delay| (delay, time));
         let noise = Dual::variable(0.0, 2 + n + memory.len());
-        let ends = inputs(drive, i, &[before[0]], delay).map(|end| end + noise);
-        let steps = &tape.steps[next..tape.until[i]];
-        let long: f64 = steps.iter().map(|s| s.h).sum();
-        for step in steps {
-            walker.step(&mut state, step, [long, time[i]], ends);
-        }
+        let course = course(drive, i, &[before[0]], delay).raised(noise);
+        walker.interval(
+            &mut state,
+            &tape.steps[next..tape.until[i]],
+            [time[i], time[i + 1]],
+            &course,
+        );
         next = tape.until[i];
         let shown = model.displacement(state.q, &state.z);
         let dt = time[i + 1] - time[i];
@@ -145,6 +148,9 @@ pub fn passages<const P: usize>(
         see(Passage { states, seen: seen.map(|y| y.eps) });
     }
 }
+
+/// The lengths of the steps of a part come to it but for so much.
+const ROUNDING: f64 = 1e-9;
 
 struct Again<'a, const P: usize> {
     model: &'a Model<Dual<P>>,
@@ -162,6 +168,46 @@ impl<'a, const P: usize> Again<'a, P> {
             base: Base { q: zero, v: zero, z: none.clone() },
             z_dot: std::array::from_fn(|_| none.clone()),
             z: none,
+        }
+    }
+
+    /// The steps of an interval from one time to the other [s].
+    fn interval(
+        &mut self,
+        state: &mut Start<Dual<P>>,
+        mut steps: &[Step],
+        [t, end]: [f64; 2],
+        course: &Course<Dual<P>>,
+    ) {
+        let dt = end - t;
+        // Where the input jumps the force does. When it does moves with the parameters, and with it the velocity after it.
+        let kick = course.knot.map(|knot| {
+            let [before, after] = knot.sides.map(|u| self.model.driving(u).re);
+            let when = Dual { re: 0.0, eps: knot.share.eps };
+            when * (dt * (before - after) / self.model.mass().re)
+        });
+        let mut parts = course.parts(dt).peekable();
+        if let (Some(kick), Some(([from, _], _))) = (kick, parts.peek())
+            && course.knot.is_some_and(|knot| knot.share.re * dt <= *from)
+        {
+            state.v += kick;
+        }
+        while let Some(([from, to], ends)) = parts.next() {
+            let mut long = 0.0;
+            let many = steps.iter().take_while(|step| {
+                let own = long < (to - from) * (1.0 - ROUNDING);
+                long += if own { step.h } else { 0.0 };
+                own
+            });
+            let many = if parts.peek().is_some() { many.count() } else { steps.len() };
+            let long: f64 = steps[..many].iter().map(|step| step.h).sum();
+            for step in &steps[..many] {
+                self.step(state, step, [long, t + from], ends);
+            }
+            steps = &steps[many..];
+            if let (Some(kick), Some(_)) = (kick, parts.peek()) {
+                state.v += kick;
+            }
         }
     }
 

@@ -2,12 +2,12 @@
 
 use super::{
     Drive, Dual, Model,
+    course::{course, rate},
     plant::Stage,
     stage::{Base, Seek, velocity},
     tableau::{A, C, ERROR, GAMMA},
     tape::{Motion, Step, Tape},
 };
-use crate::Hold;
 
 /// The state at the first sample.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,10 +77,15 @@ pub fn march(
     for (i, t) in time.iter().enumerate() {
         motion.q.push(model.displacement(walker.q, &walker.z));
         motion.v.push(walker.v);
-        let ends = inputs(drive, i, &motion.q, model.delay().map(|delay| (delay, time)));
-        motion.u.push(ends[0]);
+        let course = course(drive, i, &motion.q, model.delay().map(|delay| (delay, time)));
+        motion.u.push(course.ends[0]);
         if let Some(next) = time.get(i + 1) {
-            walker.interval(*t, next - t, ends, &mut motion.tape)?;
+            for ([from, to], ends) in course.parts(next - t) {
+                let h = walker.h;
+                walker.interval(t + from, to - from, ends, &mut motion.tape)?;
+                // A part that is short says nothing of how long steps may be.
+                walker.h = walker.h.max(h.min(to - from));
+            }
             motion.tape.until.push(motion.tape.steps.len());
         }
     }
@@ -118,74 +123,6 @@ fn seen(model: &Model<f64>, drive: &Drive<'_>, time: &[f64], motion: &mut Motion
 pub(super) fn begun<D: super::Real>([first, second, third]: [D; 3], dt: f64) -> (D, D) {
     let bend = (third - second * 2.0 + first) / (dt * dt);
     ((second - first) / dt - bend * (0.5 * dt), bend)
-}
-
-/// How fast the input changes at sample `i`, over a few samples; 0 where the controller makes it.
-pub(super) fn rate(drive: &Drive<'_>, time: &[f64], i: usize) -> f64 {
-    const FAR: usize = 2;
-    let Drive::Recorded { values, first, .. } = drive else { return 0.0 };
-    let values = &values[*first..];
-    let (before, after) = (i.saturating_sub(FAR), (i + FAR).min(values.len() - 1));
-    if after == before {
-        return 0.0;
-    }
-    (values[after] - values[before]) / (time[after] - time[before])
-}
-
-/// The input at both ends of the interval that begins with sample `i`; late by the `delay` where there is one.
-pub(super) fn inputs<D: super::Real>(
-    drive: &Drive<'_>,
-    i: usize,
-    q: &[D],
-    delay: Option<(D, &[f64])>,
-) -> [D; 2] {
-    match (drive, delay) {
-        (Drive::Recorded { values, first, hold }, Some(late_by)) => {
-            late((values, *first), *hold, i, late_by)
-        }
-        (Drive::Recorded { values, first, hold }, None) => {
-            let now = first + i;
-            let end = if *hold == Hold::Linear { (now + 1).min(values.len() - 1) } else { now };
-            [D::from(values[now]), D::from(values[end])]
-        }
-        (Drive::Controlled(feedback), _) => {
-            let at = |back: usize| q[q.len() - 1 - back.min(q.len() - 1)];
-            [feedback.command(i, [at(0), at(2)]); 2]
-        }
-    }
-}
-
-/// The recorded input of a time `delay` [s] ago, at both ends of the interval that begins with sample `i`, whose first
-/// is at the place `first` of the values. One that is held steps within the interval: what it does to a mass until the
-/// next sample is that of a line.
-fn late<D: super::Real>(
-    (values, first): (&[f64], usize),
-    hold: Hold,
-    i: usize,
-    (delay, time): (D, &[f64]),
-) -> [D; 2] {
-    let next = (i + 1).min(values.len() - 1 - first);
-    let dt = if next > i { time[next] - time[i] } else { 1.0 };
-    let share = delay / dt;
-    let whole = share.re().floor();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
-    let back = whole.clamp(0.0, 1e9) as usize;
-    let part = share - whole;
-    let ago = |place: usize, back: usize| D::from(values[(first + place).saturating_sub(back)]);
-    let at = |place: usize| ago(place, back);
-    let between = |place: usize| {
-        let before = ago(place, back + 1);
-        at(place) + (before - at(place)) * part
-    };
-    match hold {
-        Hold::Linear => [between(i), between(next)],
-        Hold::ZeroOrder => {
-            // The step within the interval, as the line that has its mean and its first moment.
-            let step = at(i) - ago(i, back + 1);
-            let half = step * part * (-part + 1.0) * 3.0;
-            [between(i) - half, between(i) + half]
-        }
-    }
 }
 
 struct Walker<'a> {
