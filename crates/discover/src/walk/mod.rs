@@ -157,12 +157,7 @@ fn walked(
     // To say how little of each would show.
     let start = Gram::of(&walk.board, &refit, (&context, true))?;
     let mut effects = walk.rounds(&context, options, &start)?;
-    if !walk.turned {
-        walk.drop_each(&mut effects)?;
-        let other = walk.other.take();
-        walk.exchange_each(&mut effects, &context, options)?;
-        walk.other = other;
-    }
+    walk.looked_over(&mut effects, &context, options)?;
     let refit = walk.polish(&refit, options.seed)?;
     walk.drop_unsure(rig, &refit, &mut effects)?;
     let before = walk.board.judged(&fixed, None)?;
@@ -285,6 +280,23 @@ impl Walk<'_> {
         }
         self.loosen_held();
         Ok(effects)
+    }
+
+    /// The effects once more, beside each other.
+    fn looked_over(
+        &mut self,
+        effects: &mut Vec<Found>,
+        context: &Context,
+        options: &Options,
+    ) -> Result<(), FitError> {
+        if self.turned {
+            return Ok(());
+        }
+        self.drop_each(effects)?;
+        let other = self.other.take();
+        self.exchange_each(effects, context, options)?;
+        self.other = other;
+        Ok(())
     }
 
     /// One effect more, if there is one that is surely there.

@@ -183,6 +183,18 @@ impl<'a> Walk<'a> {
         self.board.fit(&rig, Some((&x, &fitted.pieces)), &REFIT)
     }
 
+    /// A model refitted from the given values of what is no effect's, by way of short windows, to its end.
+    fn anew(&self, rig: &Rig) -> Result<Fitted, FitError> {
+        let mut rig = rig.clone();
+        for name in rig.free.clone().iter().filter(|name| !name.contains('.')) {
+            if let Some(given) = self.given.value(name) {
+                binding::set(&mut rig, name, given);
+            }
+        }
+        let short = Some(&self.short).filter(|short| !short.imposed());
+        self.ended(self.board.refit(&rig, short, &REFIT)?)
+    }
+
     /// Takes away again, where the refitted nominal model leaves no more than the floor, every effect of which no amount
     /// is surely more than nothing: what its shapes fit besides is noise.
     pub(super) fn drop_unsure(
@@ -235,6 +247,13 @@ impl<'a> Walk<'a> {
             {
                 let from = (without.x.as_slice(), without.pieces.as_slice());
                 without = self.board.fit(&without.rig, Some(from), &REFIT)?;
+            }
+            // What was found later was found beside it, and may be in a minimum of its own.
+            if !needless(&without) && effects.len() > 1 {
+                let anew = self.anew(&without.rig)?;
+                if self.board.trained(&anew) < self.board.trained(&without) {
+                    without = anew;
+                }
             }
             if needless(&without) {
                 self.best = without;
