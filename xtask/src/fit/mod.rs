@@ -123,8 +123,7 @@ pub(crate) fn simulate(arguments: &SimulateArgs) -> Result<Exit, Failure> {
         traces(&out.join("simulated.csv"), &run.traces)?;
     }
     if arguments.json {
-        let value =
-            json!({ "format": FORMAT, "way": shown::way(run.way, 1), "gap": gaps(&rig, &run.gap) });
+        let value = json!({ "format": FORMAT, "way": shown::way(run.way, run.windows), "gap": gaps(&rig, &run.gap) });
         output::line(&format!("{value:#}"));
     } else {
         for line in shown::beside(&rig, &run) {

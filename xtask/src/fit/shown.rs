@@ -229,7 +229,7 @@ fn table(title: &str, rig: &Rig, gap: &[Misfit]) -> Vec<String> {
 
 /// A simulated run beside its record, for a screen.
 pub(super) fn beside(rig: &Rig, run: &Simulated) -> Vec<String> {
-    let mut lines = vec![format!("{}: {}", rig.title, way(run.way, 1))];
+    let mut lines = vec![format!("{}: {}", rig.title, way(run.way, run.windows))];
     let head = format!("{:18} {:>11} {:>11} {:>10}  unit", "channel", "misfit", "noise", "%");
     lines.push(head);
     lines.extend(run.gap.iter().map(|g| {

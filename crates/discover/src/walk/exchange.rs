@@ -16,14 +16,19 @@ use identify::{
 
 impl Walk<'_> {
     /// Looks once more for every effect but the last, beside all others: what was found first made up for what was
-    /// found later as well, and a richer effect does that better than a simple one.
+    /// found later as well, and a richer effect does that better than a simple one. For the last one, too, where it is no
+    /// longer plausible: when another was taken away it may have become that one's opposite.
     pub(super) fn exchange_each(
         &mut self,
         effects: &mut [Found],
         context: &Context,
         options: &Options,
     ) -> Result<(), FitError> {
-        for place in 0..effects.len().saturating_sub(1) {
+        for place in 0..effects.len() {
+            let plausible = self.plausible(effects[place].name, context);
+            if place + 1 == effects.len() && plausible {
+                break;
+            }
             let (before, ranked) = (self.best.clone(), self.ranking.len());
             let name = effects[place].name;
             self.reached = self.judged(&before.blocks).level().max(1.0);
@@ -36,7 +41,7 @@ impl Walk<'_> {
             match again {
                 Some(found)
                     if found.name != name
-                        && takes(&now, &then, [found.name, name])
+                        && (takes(&now, &then, [found.name, name]) || !plausible)
                         && self.sound(effects, place, context) =>
                 {
                     effects[place] = found;
@@ -55,12 +60,15 @@ impl Walk<'_> {
     /// Whether all effects but the one in this `place` are still plausible in the last model: none of them has become what
     /// was taken away.
     fn sound(&self, effects: &[Found], place: usize, context: &Context) -> bool {
+        let mut others = effects.iter().enumerate().filter(|(own, _)| *own != place);
+        others.all(|(_, effect)| self.plausible(effect.name, context))
+    }
+
+    /// Whether the effect of this name is plausible in the last model.
+    fn plausible(&self, name: &str, context: &Context) -> bool {
         let others = [&self.best.rig, &self.origin.rig, &self.given];
-        let kind = |name: &str| LAWS.iter().find(|kind| kind.about().name == name);
-        effects.iter().enumerate().filter(|(own, _)| *own != place).all(|(_, effect)| {
-            kind(effect.name)
-                .is_none_or(|kind| model::plausible(&self.best.rig, *kind, context, &others))
-        })
+        let kind = LAWS.iter().find(|kind| kind.about().name == name);
+        kind.is_none_or(|kind| model::plausible(&self.best.rig, *kind, context, &others))
     }
 }
 
@@ -80,6 +88,33 @@ fn takes(now: &Judged, then: &Judged, [another, had]: [&str; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Judged, takes};
+    use crate::walk::made::{context, data, rig, walk, with};
+    use identify::effects::Kind;
+
+    #[test]
+    fn the_last_effect_is_looked_for_once_more_where_it_has_become_its_opposite() {
+        let data = data();
+        let found = |name: &'static str| crate::verdict::Found {
+            name,
+            set: vec![name],
+            values: Vec::new(),
+            shrink: 0.9,
+            t: 9.0,
+            separated_by: String::new(),
+        };
+        let last = |amount: f64| {
+            let mut walk = walk(&rig(2.0), &data, &[]);
+            let drag = with(&rig(2.0), Kind::QuadraticDrag, &[amount]);
+            walk.best = walk.board.judged(&drag, None).unwrap();
+            let context = context(&walk);
+            let mut effects = vec![found("quadratic_drag")];
+            walk.exchange_each(&mut effects, &context, &crate::Options::default()).unwrap();
+            effects[0].name
+        };
+        // What is missing is a bias; a drag that drives is no drag.
+        assert_eq!(last(-0.1), "current_bias");
+        assert_eq!(last(0.1), "quadratic_drag", "what is plausible stays");
+    }
 
     #[test]
     fn a_richer_effect_takes_no_place_but_of_one_that_is_surely_worse() {

@@ -62,8 +62,10 @@ pub struct Simulated {
     pub gap: Vec<Misfit>,
     /// Every channel over time; before and after are the same.
     pub traces: Vec<Trace>,
-    /// How the record was simulated.
+    /// How the record was simulated, and in how many windows.
     pub way: Way,
+    /// See `way`.
+    pub windows: usize,
 }
 
 /// Whether the model of `rig` has a motion on the inputs of `data`: in one of the windows at least, as [`simulate`] takes
@@ -114,7 +116,8 @@ pub fn simulate(rig: &Rig, data: &Data, window: Option<f64>) -> Result<Simulated
     let found =
         Found { x: Vec::new(), misfit: f64::NAN, pieces, end: End::Converged, simulations: [1, 0] };
     let gap = gap(&problem, &found, &found);
-    Ok(Simulated { gap, traces: traces(&problem, [&found, &found]), way })
+    let windows = problem.windows.len();
+    Ok(Simulated { gap, traces: traces(&problem, [&found, &found]), way, windows })
 }
 
 /// Every channel of the windows; a window that could not be simulated shows what is not a number.
