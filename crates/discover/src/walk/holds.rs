@@ -94,8 +94,9 @@ pub(super) fn simpler(one: &Discovery, other: &Discovery) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Discovery, simpler};
+    use super::{Data, Discovery, Hold, simpler};
     use crate::{verdict::Verdict, walk::made};
+    use identify::fit::Seen;
 
     /// An answer with so many effects that leaves so much.
     fn answer(effects: usize, left: f64) -> Discovery {
@@ -116,6 +117,28 @@ mod tests {
             hold: None,
             rig,
         }
+    }
+
+    #[test]
+    fn the_record_is_asked_for_the_other_way_and_the_wrong_one_turns() {
+        // Every sixteenth sample. Its input goes straight: held it would come half a sample, 40 ms, late.
+        let all = made::data();
+        let some = |values: &[f64]| values.iter().copied().step_by(16).collect::<Vec<f64>>();
+        let seen = some(&all.displacement.as_ref().expect("it is seen").values);
+        let with = |hold: Hold| {
+            let seen = Seen::new("position", seen.clone(), 0.0);
+            Data::driven(some(&all.time), some(&all.input), hold, seen)
+        };
+        let [line, step] = [with(Hold::Linear), with(Hold::ZeroOrder)];
+        let bias = made::with(&made::rig(2.0), identify::effects::Kind::CurrentBias, &[made::BIAS]);
+        let asked = |own: &Data, other: &Data| {
+            let mut walk = made::walk(&bias, own, &[]);
+            assert!(!walk.turns(&[]).unwrap(), "nobody asks");
+            walk.other = Some(other);
+            (walk.turns(&[]).unwrap(), walk.may_be_other().unwrap())
+        };
+        assert_eq!(asked(&step, &line), (true, true));
+        assert_eq!(asked(&line, &step), (false, false));
     }
 
     #[test]
