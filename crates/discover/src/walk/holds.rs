@@ -1,6 +1,12 @@
 //! What the input does between its samples, where the record is not sure of it: of two answers the simpler.
 
-use super::{ALIKE, End, FIRST, Walk, answer::MORE, named::SURE, polish::lacking, walked};
+use super::{
+    ABOVE, ALIKE, End, FIRST, Walk,
+    answer::MORE,
+    named::{SURE, UNSURE},
+    polish::lacking,
+    walked,
+};
 use crate::{
     board::{Board, Fitted},
     model::Candidate,
@@ -51,22 +57,31 @@ impl Walk<'_> {
     }
 
     /// Whether the nearest of the candidates, or without one the last model, is surely much nearer to the record with its
-    /// input the other way: then this is the wrong one, and what is missing with it is another thing.
+    /// input the other way: then this is the wrong one, and what is missing with it is another thing. What is at the floor
+    /// is there already.
     pub(super) fn turns(&self, all: &[Candidate]) -> Result<bool, FitError> {
+        if self.other.is_none() {
+            return Ok(false);
+        }
         let all = all.iter().map(|candidate| &candidate.fitted).chain([&self.best]);
-        let level = |fitted: &&Fitted| self.judged(&fitted.blocks).level();
+        let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
         let near = all.min_by(|a, b| level(a).total_cmp(&level(b))).unwrap_or(&self.best);
-        let other = self.the_other_way(&near.rig, near)?;
+        // Refitted as far as the other will be: a candidate may still be on its way.
+        let near = self.board.fit(&near.rig, Some((&near.x, &near.pieces)), &FIRST)?;
+        if level(&near) < ABOVE {
+            return Ok(false);
+        }
+        let other = self.the_other_way(&near.rig, &near)?;
         Ok(other.is_some_and(|(t, share)| t > SURE && ALIKE * share < 1.0))
     }
 
-    /// Whether the record may be simpler with its input the other way: the last model is surely nearer so, or is as near
+    /// Whether the record may be simpler with its input the other way: the last model is nearer so, or is as near
     /// without one of its effects, or leaves something and is not surely further off.
     pub(super) fn may_be_other(&self) -> Result<bool, FitError> {
         let best = &self.best;
         let Some((t, _)) = self.the_other_way(&best.rig, best)? else { return Ok(false) };
         let leaves = self.leaves(best) > MORE || self.struck();
-        if t > SURE || leaves && t > -SURE {
+        if t > UNSURE || leaves && t > -SURE {
             return Ok(true);
         }
         for effect in &best.rig.effects {

@@ -84,7 +84,9 @@ pub fn march(
                 let h = walker.h;
                 walker.interval(t + from, to - from, ends, &mut motion.tape)?;
                 // A part that is short says nothing of how long steps may be.
-                walker.h = walker.h.max(h.min(to - from));
+                if course.knot.is_some() {
+                    walker.h = walker.h.max(h.min(next - t));
+                }
             }
             motion.tape.until.push(motion.tape.steps.len());
         }
