@@ -88,20 +88,12 @@ fn takes(now: &Judged, then: &Judged, [another, had]: [&str; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Judged, takes};
-    use crate::walk::made::{context, data, rig, walk, with};
+    use crate::walk::made::{context, data, found, rig, walk, with};
     use identify::effects::Kind;
 
     #[test]
     fn the_last_effect_is_looked_for_once_more_where_it_has_become_its_opposite() {
         let data = data();
-        let found = |name: &'static str| crate::verdict::Found {
-            name,
-            set: vec![name],
-            values: Vec::new(),
-            shrink: 0.9,
-            t: 9.0,
-            separated_by: String::new(),
-        };
         let last = |amount: f64| {
             let mut walk = walk(&rig(2.0), &data, &[]);
             let drag = with(&rig(2.0), Kind::QuadraticDrag, &[amount]);

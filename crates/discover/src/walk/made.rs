@@ -1,7 +1,10 @@
 //! A walk at its beginning, for the tests of its steps.
 
 use super::Walk;
-use crate::board::{Board, Fitted};
+use crate::{
+    board::{Board, Fitted},
+    verdict::Found,
+};
 use identify::{
     Hold, Rig,
     effects::{Context, Kind},
@@ -76,4 +79,10 @@ pub(super) fn with(rig: &Rig, kind: Kind, values: &[f64]) -> Rig {
 /// The sizes of the record.
 pub(super) fn context(walk: &Walk<'_>) -> Context {
     crate::model::context(&walk.board, &walk.best)
+}
+
+/// An effect as it is found.
+pub(super) fn found(name: &'static str) -> Found {
+    let (values, separated_by) = (Vec::new(), String::new());
+    Found { name, set: vec![name], values, shrink: 0.9, t: 9.0, separated_by }
 }

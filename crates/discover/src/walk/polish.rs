@@ -276,7 +276,7 @@ pub(super) fn lacking(rig: &Rig, name: &str) -> Rig {
 mod tests {
     use crate::{
         model::Candidate,
-        walk::made::{BIAS, context, data, rig, walk, with, with as made_with},
+        walk::made::{BIAS, context, data, found, rig, walk, with, with as made_with},
     };
     use identify::effects::{Context, Kind};
 
@@ -312,14 +312,6 @@ mod tests {
         let with = |kind: Kind, values: &[f64]| with(&walk.best.rig, kind, values);
         let bias = with(Kind::CurrentBias, &[BIAS]);
         let none = made_with(&bias, Kind::ViscousAsymmetry, &[1e-9]);
-        let found = |name: &'static str| crate::verdict::Found {
-            name,
-            set: vec![name],
-            values: Vec::new(),
-            shrink: 0.9,
-            t: 9.0,
-            separated_by: String::new(),
-        };
         let refit = walk.board.judged(&bias, None).unwrap();
         let both = walk.board.judged(&none, None).unwrap();
         for (before, left) in [(refit.clone(), 1), (walk.best.clone(), 2)] {

@@ -187,12 +187,11 @@ impl<'a, const P: usize> Again<'a, P> {
             when * (dt * (before - after) / self.model.mass().re)
         });
         let mut parts = course.parts(dt).peekable();
-        if let (Some(kick), Some(([from, _], _))) = (kick, parts.peek())
-            && course.knot.is_some_and(|knot| knot.share.re * dt <= *from)
-        {
-            state.v += kick;
-        }
         while let Some(([from, to], ends)) = parts.next() {
+            // The last part begins where it jumps, which may be where the interval does.
+            if let (Some(kick), None) = (kick, parts.peek()) {
+                state.v += kick;
+            }
             let mut long = 0.0;
             let many = steps.iter().take_while(|step| {
                 let own = long < (to - from) * (1.0 - ROUNDING);
@@ -205,9 +204,6 @@ impl<'a, const P: usize> Again<'a, P> {
                 self.step(state, step, [long, t + from], ends);
             }
             steps = &steps[many..];
-            if let (Some(kick), Some(_)) = (kick, parts.peek()) {
-                state.v += kick;
-            }
         }
     }
 

@@ -83,8 +83,8 @@ pub fn march(
             for ([from, to], ends) in course.parts(next - t) {
                 let h = walker.h;
                 walker.interval(t + from, to - from, ends, &mut motion.tape)?;
-                // A part that is short says nothing of how long steps may be.
-                if course.knot.is_some() {
+                // The first of two parts may be short, which says nothing of how long the steps of the other may be.
+                if to < next - t {
                     walker.h = walker.h.max(h.min(next - t));
                 }
             }
