@@ -109,3 +109,30 @@ impl Board<'_> {
         (trained.iter().sum::<f64>() / trained.len().max(1) as f64).exp()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{FINE, Piece, apart};
+    use identify::{fit::window::START, march::Motion};
+
+    /// So many windows of a hundred residuals each, three of them off in the first few windows.
+    fn windows(far: usize) -> Vec<Piece> {
+        let residuals = |w: usize| (0..100).map(move |i| if w < far && i < 3 { 4.0 } else { 0.0 });
+        let one = |w: usize| Piece {
+            start: [0.0; START],
+            motion: Motion::default(),
+            residuals: residuals(w).collect(),
+        };
+        (0..40).map(one).collect()
+    }
+
+    #[test]
+    fn a_few_residuals_that_differ_in_half_of_the_windows_ask_for_shorter_steps() {
+        let still = windows(0);
+        // √(3 · 16/100) of what noise leaves, though 97 of 100 residuals are the same.
+        assert!((apart(&still, &windows(40)) - 0.48_f64.sqrt()).abs() < 1e-12);
+        assert!(apart(&still, &windows(22)) > FINE);
+        assert_eq!(apart(&still, &windows(5)), 0.0, "what went another way says nothing");
+        assert_eq!(apart(&[], &[]), 0.0);
+    }
+}
