@@ -81,8 +81,10 @@ pub fn moves(rig: &Rig, data: &Data, window: Option<f64>) -> Result<bool, FitErr
     Ok(simulable(&problem).is_some())
 }
 
-/// Steps may be so many times as rough as a fit takes them where a model has no motion with these.
-const ROUGHER: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
+/// Where a model has no motion with steps as short as a fit takes them they may be so many times as rough, and so many
+/// times again, up to this share of the spans.
+const ROUGHER: f64 = 10.0;
+const ROUGHEST: f64 = 1e-2;
 
 /// What the steps may be wrong by for one of the windows at least to have a motion: a small load on a hard joint may ask
 /// for more steps than a window may take. None where no window has one. A window that is lost says nothing of the others.
@@ -94,7 +96,9 @@ fn simulable(problem: &Problem<'_>) -> Option<f64> {
             one.pieces(&[], None).iter().any(|piece| !piece.motion.q.is_empty())
         })
     };
-    ROUGHER.map(|rougher| rougher * problem.tolerance).into_iter().find(moves)
+    std::iter::successors(Some(problem.tolerance), |tolerance| Some(ROUGHER * tolerance))
+        .take_while(|tolerance| *tolerance <= ROUGHEST)
+        .find(moves)
 }
 
 /// Runs the model of `rig` on the inputs of `data`: in closed loop where the controller is declared, in windows
