@@ -41,7 +41,7 @@ impl Walk<'_> {
             match again {
                 Some(found)
                     if found.name != name
-                        && (takes(&now, &then, [found.name, name]) || !plausible)
+                        && gives_way(plausible, [&then, &now], [name, found.name])
                         && self.sound(effects, place, context) =>
                 {
                     effects[place] = found;
@@ -72,6 +72,11 @@ impl Walk<'_> {
     }
 }
 
+/// Whether a model that was `plausible`, or was not, gives way to another: what is not plausible does in any case.
+fn gives_way(plausible: bool, [then, now]: [&Judged; 2], [had, another]: [&str; 2]) -> bool {
+    !plausible || takes(now, then, [another, had])
+}
+
 /// Whether a model with `another` effect takes the place of the one it had then: if it is not surely worse, or by no more
 /// than what is worth no name; one that needs more numbers must surely be better.
 fn takes(now: &Judged, then: &Judged, [another, had]: [&str; 2]) -> bool {
@@ -87,7 +92,7 @@ fn takes(now: &Judged, then: &Judged, [another, had]: [&str; 2]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Judged, takes};
+    use super::{Judged, gives_way, takes};
     use crate::walk::made::{context, data, found, rig, walk, with};
     use identify::effects::Kind;
 
@@ -119,6 +124,9 @@ mod tests {
         assert!(takes(&alike, &then, [simple, rich]) && !takes(&alike, &then, [rich, simple]));
         assert!(takes(&better, &then, [rich, simple]));
         assert!(!takes(&then, &better, [simple, rich]), "surely worse");
+        // But what is not plausible stays nowhere, however near it is.
+        assert!(gives_way(false, [&better, &then], [rich, simple]));
+        assert!(!gives_way(true, [&better, &then], [rich, simple]));
         let worse = of([4.0, 40.0]);
         assert!(worse.against(&then) < super::UNSURE && !takes(&worse, &then, [simple, simple]));
     }
