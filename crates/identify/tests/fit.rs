@@ -114,7 +114,7 @@ fn what_an_input_does_between_its_samples_is_told_by_the_record() {
     let truth = rig("name = \"coulomb\"\nf_c = 2.0\nsigma_2 = 0.5", "\"f_c\", \"sigma_2\"");
     let wrong = off_by(&truth, 1.2);
     assert_eq!(wrong.unsaid(), Some("force"));
-    for hold in [Hold::Linear, Hold::ZeroOrder] {
+    for hold in [Hold::Smooth, Hold::ZeroOrder] {
         // Whatever was thought of it before.
         let data = Data { hold: Hold::Linear, ..held(&truth, hold, (20.0, 7)) };
         let told = hold::told(&wrong, &data).unwrap().map(|told| (told.hold, told.sure));

@@ -56,6 +56,50 @@ fn a_drive_without_a_knee_gives_the_tanh_of_what_is_asked() {
 }
 
 #[test]
+fn a_drive_may_bend_as_a_power_towards_its_knee() {
+    let saturation = "name = \"torque_saturation\"\nloss = 0.8\nknee = 3.0\nwidth = 0.5\nform = 3";
+    let rig = axis("name = \"none\"\nsigma_2 = 4.0", saturation);
+    for drive in [0.5_f64, 3.0, -20.0] {
+        let bent = drive / (1.0 + (drive / 3.0).abs().powi(6)).powf(1.0 / 6.0);
+        let given = 0.2 * drive + 0.8 * bent;
+        let v = ends(&rig, drive);
+        assert!((v / (given / 4.0) - 1.0).abs() < 1e-8, "{v} m/s at {drive} N");
+    }
+    assert_eq!(
+        ends(&rig, 0.0),
+        moved(
+            &axis("name = \"none\"\nsigma_2 = 4.0", "name = \"quadratic_drag\"\nc = 0.0"),
+            0.0,
+            4000,
+            0.3
+        )
+        .v[3999]
+    );
+}
+
+#[test]
+fn an_input_that_goes_on_smoothly_is_known_between_its_samples() {
+    // 2 kg under 3 N sin ωt with twenty samples a period; ωh = 0.31, and a line would lose (ωh)²/12 = 0.8 % of it.
+    let rig = axis("name = \"none\"", "name = \"quadratic_drag\"\nc = 0.0");
+    let model = binding::model::<f64>(&rig, &|_| None);
+    let (omega, samples) = (0.1 * std::f64::consts::PI, 200_u32);
+    let time: Vec<f64> = (0..samples).map(f64::from).collect();
+    let values: Vec<f64> = time.iter().map(|t| 3.0 * (omega * t).sin()).collect();
+    let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.states()] };
+    let tolerance = Tolerance { q: 1e-10, v: 1e-10, z: 1e-10, steps: 10_000_000 };
+    let worst = |hold: Hold| {
+        let drive = Drive::Recorded { values: &values, first: 0, hold };
+        let seen = march(&model, &drive, &time, &start, &tolerance).expect("a motion").v;
+        let exact = |t: &f64| 1.5 / omega * (1.0 - (omega * t).cos());
+        let off = seen.iter().zip(&time).map(|(v, t)| (v - exact(t)).abs());
+        off.fold(0.0, f64::max) / (2.0 * 1.5 / omega)
+    };
+    let (smooth, line) = (worst(Hold::Smooth), worst(Hold::Linear));
+    // What the first and the last interval lack of their neighbours is the most of it.
+    assert!(smooth < 5e-4 && (line / (omega * omega / 12.0) - 1.0).abs() < 0.1, "{smooth}, {line}");
+}
+
+#[test]
 fn friction_may_fall_off_with_the_square_of_the_speed() {
     let stribeck = "name = \"stribeck\"\ndrop = 1.0\nv_s = 0.1\nform = 5";
     let rig = axis("name = \"coulomb\"\nf_c = 2.0\nsigma_2 = 40.0", stribeck);

@@ -175,7 +175,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     (
         "quantum = 1e-4",
         "hold = \"cubic\"",
-        "hold = \"cubic\": expected \"linear\" or \"zero-order\"",
+        "hold = \"cubic\": expected \"linear\", \"smooth\" or \"zero-order\"",
     ),
     ("at = \"motor\"", "at = \"shaft\"", "expected \"motor\" or \"drum\""),
     (

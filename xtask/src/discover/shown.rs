@@ -51,6 +51,9 @@ pub(crate) fn between(hold: Hold) -> &'static str {
         Hold::Linear => {
             "goes straight from sample to sample, as the record tells; the rig file does not say"
         }
+        Hold::Smooth => {
+            "goes on smoothly between samples, as the record tells; the rig file does not say"
+        }
         Hold::ZeroOrder => {
             "is held from sample to sample, as the record tells; the rig file does not say"
         }

@@ -41,7 +41,7 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
 
 /// The other of the two ways between samples.
 fn opposite(hold: Hold) -> Hold {
-    if hold == Hold::Linear { Hold::ZeroOrder } else { Hold::Linear }
+    if hold == Hold::ZeroOrder { Hold::Smooth } else { Hold::ZeroOrder }
 }
 
 impl Walk<'_> {

@@ -9,6 +9,9 @@ const FAR: f64 = 36.0;
 /// The form without a knee: the drive bends from the first on, as tanh does.
 const ROUND: f64 = 2.0;
 
+/// The form of which the bend has the knee as its asymptote: 1/(1 + |u/knee|^p)^(1/p), p = knee/width.
+const POWER: f64 = 3.0;
+
 /// The hyperbolic tangent.
 fn tanh<D: Real>(x: D) -> D {
     let size = if x.re() < 0.0 { -x } else { x };
@@ -40,12 +43,24 @@ impl Law for TorqueSaturation {
         test: 0.1,
     };
 
-    const FORMS: &[f64] = &[1.0, ROUND];
+    const FORMS: &[f64] = &[1.0, ROUND, POWER];
 
     fn drive<D: Real>(p: &[D], force: D) -> D {
         if p[3].re() == ROUND {
             // All that is lost where the drive gives the knee's tanh of what is asked.
             let given = p[1] * tanh(force / p[1]);
+            return force - (force - given) * p[0];
+        }
+        if p[3].re() == POWER {
+            if force.re() == 0.0 {
+                return force;
+            }
+            // ln of 1 + |u/knee|^p, without its overflow.
+            let power = p[1] / p[2];
+            let size = if force.re() < 0.0 { -force } else { force };
+            let over = (size / p[1]).ln() * power;
+            let bend = if over.re() > FAR { over } else { (over.exp() + 1.0).ln() };
+            let given = force * (-bend / power).exp();
             return force - (force - given) * p[0];
         }
         // What is beyond the knee, and a little of what is before: an amplifier bends, it has no corner.

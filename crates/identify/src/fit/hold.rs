@@ -1,7 +1,6 @@
 //! What the recorded input does between its samples, where the rig file does not say.
 //!
-//! An input that is held until the next sample comes half a sample later, in the mean, than one that goes straight to
-//! it, and that can be more than any effect of friction. It is told by the record: of two models that differ in
+//! An input that is held until the next sample comes half a sample later, in the mean, than one that goes on to it, and that can be more than any effect of friction. It is told by the record: of two models that differ in
 //! nothing else the nearer one.
 
 use super::{
@@ -59,11 +58,12 @@ pub fn told(rig: &Rig, data: &Data) -> Result<Option<Told>, FitError> {
     if !rig.free.iter().any(|free| free == OFFSET) {
         rig.free.push(OFFSET.to_owned());
     }
-    let [linear, held] = [Hold::Linear, Hold::ZeroOrder];
-    let both = rayon::join(|| misfit(&rig, data, linear), || misfit(&rig, data, held));
+    // What is measured of an input that nobody holds is smooth; straight it is only on paper.
+    let [smooth, held] = [Hold::Smooth, Hold::ZeroOrder];
+    let both = rayon::join(|| misfit(&rig, data, smooth), || misfit(&rig, data, held));
     let nearer: Vec<f64> = both.0?.iter().zip(both.1?).map(|(line, step)| line - step).collect();
     let mean = nearer.iter().sum::<f64>() / nearer.len().max(1) as f64;
-    let hold = if mean > 0.0 { held } else { linear };
+    let hold = if mean > 0.0 { held } else { smooth };
     Ok(Some(Told { hold, sure: sure(&nearer, mean) }))
 }
 

@@ -153,7 +153,7 @@ impl Problem<'_> {
         }
     }
 
-    /// The noise of the input over each interval of a window [its unit]. What goes straight from sample to sample may have
+    /// The noise of the input over each interval of a window [its unit]. What goes on from sample to sample may have
     /// jumped at any time between two of them: as an impulse that is white noise of the jump over √12.
     fn noise(&self, window: &Window, noise: f64) -> Vec<f64> {
         let input = &self.data.input[window.first..window.end];
@@ -163,7 +163,7 @@ impl Problem<'_> {
             let beside = at(k.checked_sub(1)).max(at(Some(k + 1)));
             (steps[k] - JUMP * beside.max(noise)).max(0.0)
         };
-        let late = |k: usize| if self.data.hold == Hold::Linear { jump(k) } else { 0.0 };
+        let late = |k: usize| if self.data.hold == Hold::ZeroOrder { 0.0 } else { jump(k) };
         (0..steps.len()).map(|k| noise.hypot(late(k) / 12f64.sqrt())).collect()
     }
 

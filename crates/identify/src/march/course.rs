@@ -78,13 +78,51 @@ pub(super) fn course<D: Real>(
         }
         (Drive::Recorded { values, first, hold }, None) => {
             let now = first + i;
-            let end = if *hold == Hold::Linear { (now + 1).min(values.len() - 1) } else { now };
-            line([D::from(values[now]), D::from(values[end])])
+            let end = if *hold == Hold::ZeroOrder { now } else { (now + 1).min(values.len() - 1) };
+            line(match hold {
+                Hold::Smooth if end > now => {
+                    Cubic::after(values, now).line([D::from(0.0), D::from(1.0)])
+                }
+                _ => [D::from(values[now]), D::from(values[end])],
+            })
         }
         (Drive::Controlled(feedback), _) => {
             let at = |back: usize| q[q.len() - 1 - back.min(q.len() - 1)];
             line([feedback.command(i, [at(0), at(2)]); 2])
         }
+    }
+}
+
+/// The cubic through four samples, over the interval between the two in the middle: its coefficients [the input's unit]
+/// about the middle, in intervals.
+#[derive(Debug, Clone, Copy)]
+struct Cubic([f64; 4]);
+
+impl Cubic {
+    /// Over the interval that begins at the place `now` of the values. What is not there goes straight on.
+    fn after(values: &[f64], now: usize) -> Self {
+        let last = values.len() - 1;
+        let [from, to] = [now, now + 1].map(|place| values[place.min(last)]);
+        let before = if now > 0 { values[now - 1] } else { 2.0 * from - to };
+        let after = values.get(now + 2).copied().unwrap_or(2.0 * to - from);
+        let ([inner, outer], [rise, wide]) =
+            ([0.5 * (from + to), 0.5 * (before + after)], [to - from, after - before]);
+        let (square, cube) = (0.5 * (outer - inner), (wide - 3.0 * rise) / 6.0);
+        Self([inner - square / 4.0, rise - cube / 4.0, square, cube])
+    }
+
+    /// The ends of the line that has its mean and its first moment between these shares of the interval: a plant that
+    /// turns it into a motion cannot tell the two.
+    fn line<D: Real>(self, [from, to]: [D; 2]) -> [D; 2] {
+        let Self([constant, slope, square, cube]) = self;
+        let at = |share: D| {
+            let t = share - 0.5;
+            ((t * cube + square) * t + slope) * t + constant
+        };
+        let (long, middle) = ((to - from).re(), 0.5 * (from + to).re() - 0.5);
+        let bend = (2.0 * square + 6.0 * cube * middle) * long * long / 12.0;
+        let twist = cube * long.powi(3) / 20.0;
+        [at(from) - bend + twist, at(to) - bend - twist]
     }
 }
 
@@ -103,9 +141,9 @@ fn late<D: Real>(
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
     let back = whole.clamp(0.0, 1e9) as usize;
     let part = share - whole;
-    let ago = |place: usize, back: usize| D::from(values[(first + place).saturating_sub(back)]);
-    let at = |place: usize| ago(place, back);
-    let [before, now, after] = [ago(i, back + 1), at(i), at(next)];
+    let place = |i: usize, back: usize| (first + i).saturating_sub(back);
+    let ago = |i: usize, back: usize| D::from(values[place(i, back)]);
+    let [before, now, after] = [ago(i, back + 1), ago(i, back), ago(next, back)];
     let moved = part - part.re();
     let (ends, sides) = match hold {
         Hold::ZeroOrder => ([before, now], [before, now]),
@@ -114,10 +152,18 @@ fn late<D: Real>(
             let ends = [now - rises * part, after - goes_on * part];
             (ends, [now - rises * moved, now - goes_on * moved])
         }
+        Hold::Smooth => {
+            let one = D::from(1.0);
+            let [earlier, later] =
+                [back + 1, back].map(|back| Cubic::after(values, place(i, back)));
+            let [begin, before] = earlier.line([one - part, one - moved]);
+            let [after, end] = later.line([-moved, one - part]);
+            ([begin, end], [before, after])
+        }
     };
     let straight = match hold {
         Hold::ZeroOrder => before.re() == now.re(),
-        Hold::Linear => part.re() == 0.0,
+        Hold::Linear | Hold::Smooth => part.re() == 0.0,
     };
     Course { ends, knot: (!straight).then_some(Knot { share: part, sides }) }
 }
@@ -146,6 +192,34 @@ mod tests {
         // Later by dτ it jumps later.
         let later = course(&drive, 1, &[], Some((Dual::<1>::variable(0.03, 0), &time[..])));
         assert!((later.knot.unwrap().share.eps[0] - 10.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_smooth_input_has_the_mean_and_the_first_moment_of_its_cubic() {
+        // u = s³ − 2 s² + s + 1 with s counted from the second sample; 0.3 of an interval late as well.
+        let u = |s: f64| ((s - 2.0) * s + 1.0) * s + 1.0;
+        let values: Vec<f64> = (0..6).map(|i| u(f64::from(i) - 2.0)).collect();
+        let drive = Drive::Recorded { values: &values, first: 2, hold: Hold::Smooth };
+        let time = [0.0, 0.1, 0.2, 0.3];
+        let moments = |f: &dyn Fn(f64) -> f64| {
+            let n = 20_000;
+            let sums =
+                (0..n).map(|k| (f64::from(k) + 0.5) / f64::from(n)).map(|s| [f(s), s * f(s)]);
+            sums.fold([0.0; 2], |sum, f| [0, 1].map(|i| sum[i] + f[i] / f64::from(n)))
+        };
+        for (delay, i) in [(0.0, 0_u8), (0.0, 1), (0.03, 0), (0.03, 1)] {
+            let late = Some((delay, &time[..])).filter(|(delay, _)| *delay > 0.0);
+            let course = course::<f64>(&drive, usize::from(i), &[], late);
+            let [seen, truly] =
+                [moments(&|s| course.at(s)), moments(&|s| u(s + f64::from(i) - 10.0 * delay))];
+            for (seen, truly) in seen.iter().zip(truly) {
+                assert!((seen - truly).abs() < 1e-4, "{seen} for {truly}, {delay} s late");
+            }
+        }
+        let by = course(&drive, 1, &[], Some((Dual::<1>::variable(0.03, 0), &time[..])));
+        let slope = |s: f64| (3.0 * s - 4.0) * s + 1.0;
+        let [begin, end] = [0.7, 1.7].map(|s| -10.0 * slope(s));
+        assert!((by.ends[0].eps[0] - begin).abs() < 1e-9 && (by.ends[1].eps[0] - end).abs() < 1e-9);
     }
 
     #[test]

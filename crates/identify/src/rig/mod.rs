@@ -88,6 +88,8 @@ pub enum Hold {
     /// It goes straight from one to the next.
     #[default]
     Linear,
+    /// It goes on smoothly: along the cubic through the two before and the two after.
+    Smooth,
     /// It stays, and jumps at the next.
     ZeroOrder,
 }
@@ -97,6 +99,7 @@ impl Hold {
     pub fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear",
+            Self::Smooth => "smooth",
             Self::ZeroOrder => "zero-order",
         }
     }

@@ -309,10 +309,11 @@ fn channel(table: &Table, quantity: &super::Quantity, kind: &Kind) -> Result<Cha
 }
 
 fn hold(table: &Table) -> Result<Option<Hold>, RigError> {
-    let expected = "\"linear\" or \"zero-order\"";
+    let expected = "\"linear\", \"smooth\" or \"zero-order\"";
     let Some(item) = table.find("hold") else { return Ok(None) };
     match item.text(expected)? {
         "linear" => Ok(Some(Hold::Linear)),
+        "smooth" => Ok(Some(Hold::Smooth)),
         "zero-order" => Ok(Some(Hold::ZeroOrder)),
         _ => Err(item.invalid(expected)),
     }
