@@ -74,16 +74,27 @@ pub fn residual(rig: &Rig, data: &Data, seed: u64) -> Option<Residual> {
     Some(Residual { time: data.time.clone(), floor: floor.collect(), q: seen.q, v: seen.v, force })
 }
 
-/// Displacement, velocity and residual force of every sample, without a floor; none as of [`residual`].
-pub(crate) fn left(rig: &Rig, data: &Data) -> Option<[Vec<f64>; 3]> {
+/// Displacement [m], velocity [m/s] and residual force [N] of every sample, without a floor.
+pub(crate) struct Left {
+    pub(crate) q: Vec<f64>,
+    pub(crate) v: Vec<f64>,
+    pub(crate) force: Vec<f64>,
+    /// The residual force lags behind the lacking one, as a mass M that D pulls along does: by M/D, in samples [1].
+    pub(crate) lag: f64,
+}
+
+/// What a model leaves; none as of [`residual`].
+pub(crate) fn left(rig: &Rig, data: &Data) -> Option<Left> {
     let seen = Signals::of(data)?;
     if data.force.is_some() {
         let Residual { q, v, force, .. } = imposed(rig, data, seen)?;
-        return Some([q, v, force]);
+        return Some(Left { q, v, force, lag: 0.0 });
     }
     let model = torque_alone(rig, data);
-    let force = seen.run(&model, data, strength(&model, data, &seen.v))?;
-    Some([seen.q, seen.v, force])
+    let strength = strength(&model, data, &seen.v);
+    let force = seen.run(&model, data, strength)?;
+    let lag = model.balance.mass / (strength * data.sample_time());
+    Some(Left { q: seen.q, v: seen.v, force, lag })
 }
 
 /// How many samples are near on either side.

@@ -3,17 +3,15 @@
 
 use crate::{
     board::{Board, Fitted},
-    nudge,
+    nudge::{self, Left},
 };
 use identify::effects::Context;
 use nalgebra::{SMatrix, SVector};
+use rayon::prelude::*;
 use std::f64::consts::TAU;
 
-/// The places of a shortest wave.
-const PLACES: f64 = 6.0;
-
 /// At the largest speed a wave goes by in so many samples at least.
-const SAMPLES: f64 = 8.0;
+const SAMPLES: f64 = 3.0;
 
 /// So many waves on the whole way at most.
 const MOST: f64 = 400.0;
@@ -27,17 +25,15 @@ const SLOW: f64 = 0.05;
 /// The wavenumbers [1/m] of the two waves that what a model leaves shows most of, for a force that repeats along the way
 /// and for a friction that does; 0 where there are none.
 pub(super) fn waves(board: &Board<'_>, fitted: &Fitted, context: &Context) -> [[f64; 2]; 2] {
-    let Some([q, v, force]) = nudge::left(&fitted.held(), board.data) else { return [[0.0; 2]; 2] };
+    let Some(left) = nudge::left(&fitted.held(), board.data) else { return [[0.0; 2]; 2] };
     let step = context.sample_time * context.speed;
     let many = (context.span / (SAMPLES * step)).clamp(1.0, MOST);
-    let cells = Cells::of([&q, &v, &force], context, (PLACES * many).ceil());
+    let way = Way::of(&left, context);
     let each = TAU * APART / context.span;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1600")]
     let tried: Vec<f64> = (1..=(many / APART) as usize).map(|i| each * (i as f64 + 1.0)).collect();
-    [false, true].map(|friction| {
-        let gains: Vec<f64> = tried.iter().map(|k| cells.gain(*k, friction)).collect();
-        crests(&tried, &gains)
-    })
+    let gains: Vec<[f64; 2]> = tried.par_iter().map(|k| way.gains(*k)).collect();
+    [0, 1].map(|kind| crests(&tried, &gains.iter().map(|both| both[kind]).collect::<Vec<f64>>()))
 }
 
 /// The two largest of the local maxima.
@@ -49,64 +45,83 @@ fn crests(at: &[f64], gains: &[f64]) -> [f64; 2] {
     [0, 1].map(|n| all.get(n).map_or(0.0, |i| at[*i]))
 }
 
-/// The mean force at every place of the way, going forth and going back.
-struct Cells {
-    /// Place [m], direction, mean force [N], how many samples.
-    all: Vec<[f64; 4]>,
-    low: f64,
-    span: f64,
+/// A line for each direction of the motion, and a wave of two kinds.
+const LINES: usize = 4;
+const ALL: usize = LINES + 2;
+
+/// What is left along the way, sample by sample, and what a line for each direction makes of it. Whatever is fitted lags
+/// behind the motion as what is left does: a wave of some samples would else be gone.
+struct Way<'a> {
+    q: &'a [f64],
+    /// The direction of the motion, 0 in slow motion.
+    way: Vec<f64>,
+    force: &'a [f64],
+    /// The lines.
+    lines: Vec<SVector<f64, LINES>>,
+    /// Of the difference from what lags a sample makes up so much.
+    share: f64,
 }
 
-impl Cells {
-    fn of([q, v, force]: [&[f64]; 3], context: &Context, many: f64) -> Self {
-        let (low, span) = (context.low, context.span);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-        let place = |q: f64| ((q - low) / span * many).clamp(0.0, many - 1.0) as usize;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-        let mut sums = vec![[0.0; 3]; 2 * many as usize];
-        for ((q, v), force) in q.iter().zip(v).zip(force) {
-            if v.abs() > SLOW * context.speed && force.is_finite() {
-                let cell = &mut sums[2 * place(*q) + usize::from(*v > 0.0)];
-                *cell = [cell[0] + q, cell[1] + force, cell[2] + 1.0];
-            }
+impl<'a> Way<'a> {
+    fn of(left: &'a Left, context: &Context) -> Self {
+        let fast = |v: &f64| if v.abs() > SLOW * context.speed { v.signum() } else { 0.0 };
+        let way: Vec<f64> = left.v.iter().map(fast).collect();
+        let share = if left.lag > 0.0 { 1.0 - (-1.0 / left.lag).exp() } else { 1.0 };
+        let mut lines = Vec::with_capacity(way.len());
+        let mut late = SVector::zeros();
+        for (q, way) in left.q.iter().zip(&way) {
+            let x = (q - context.low) / context.span - 0.5;
+            late += (SVector::from([1.0, *way, x, way * x]) - late) * share;
+            lines.push(late);
         }
-        let one = |(i, [q, force, n]): (usize, &[f64; 3])| {
-            let way = if i % 2 == 1 { 1.0 } else { -1.0 };
-            [q / n, way, force / n, *n]
-        };
-        let all = sums.iter().enumerate().filter(|(_, cell)| cell[2] > 0.0).map(one).collect();
-        Self { all, low, span }
+        Self { q: &left.q, way, force: &left.force, lines, share }
     }
 
-    /// By how much a wave lowers the sum of squares that a line for each direction leaves.
-    fn gain(&self, k: f64, friction: bool) -> f64 {
-        let (mut a, mut b) = (SMatrix::<f64, 6, 6>::zeros(), SVector::<f64, 6>::zeros());
-        for [q, way, force, n] in &self.all {
-            let x = (q - self.low) / self.span - 0.5;
+    /// By how much a force, and a friction, that repeats along the way lowers the sum of squares that a line for each
+    /// direction leaves.
+    fn gains(&self, k: f64) -> [f64; 2] {
+        let mut late = [[0.0; 2]; 2];
+        let mut sums = [(SMatrix::<f64, ALL, ALL>::zeros(), SVector::<f64, ALL>::zeros()); 2];
+        for (((q, way), force), lines) in
+            self.q.iter().zip(&self.way).zip(self.force).zip(&self.lines)
+        {
             let (sin, cos) = (k * q).sin_cos();
-            let by = if friction { *way } else { 1.0 };
-            let row = SVector::from([1.0, *way, x, way * x, by * sin, by * cos]);
-            a += *n * row * row.transpose();
-            b += *n * *force * row;
+            for (late, by) in late.iter_mut().zip([1.0, *way]) {
+                late[0] += (by * sin - late[0]) * self.share;
+                late[1] += (by * cos - late[1]) * self.share;
+            }
+            if *way == 0.0 || !force.is_finite() {
+                continue;
+            }
+            for ((a, b), late) in sums.iter_mut().zip(&late) {
+                let row = SVector::from([lines[0], lines[1], lines[2], lines[3], late[0], late[1]]);
+                a.ger(1.0, &row, &row, 1.0);
+                b.axpy(*force, &row, 1.0);
+            }
         }
-        let fall = |n: usize| {
-            let (a, b) = (a.view((0, 0), (n, n)).into_owned(), b.rows(0, n).into_owned());
-            // As little of each as rounding asks for.
-            let least = 1e-9 * a.diagonal().max();
-            let a = a + nalgebra::DMatrix::identity(n, n) * least;
-            a.cholesky().map_or(0.0, |factor| b.dot(&factor.solve(&b)))
-        };
-        fall(6) - fall(4)
+        sums.map(|(a, b)| fall::<ALL>(&a, &b) - fall::<LINES>(&a, &b))
     }
+}
+
+/// What the first so many of all lower a sum of squares by.
+fn fall<const N: usize>(a: &SMatrix<f64, ALL, ALL>, b: &SVector<f64, ALL>) -> f64 {
+    let (a, b) = (a.fixed_view::<N, N>(0, 0).into_owned(), b.fixed_rows::<N>(0).into_owned());
+    // As little of each as rounding asks for.
+    let least = 1e-9 * a.diagonal().max();
+    let a = a + SMatrix::<f64, N, N>::identity() * least;
+    a.cholesky().map_or(0.0, |factor| b.dot(&factor.solve(&b)))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{APART, Cells, TAU, crests};
-    use crate::walk::made::{context, data, rig, walk};
+    use super::{APART, TAU, Way, crests};
+    use crate::{
+        nudge::Left,
+        walk::made::{context, data, rig, walk},
+    };
 
     #[test]
-    fn the_length_of_a_wave_is_seen_along_the_way() {
+    fn the_length_of_a_wave_is_seen_along_the_way_though_what_is_left_lags() {
         let data = data();
         let walk = walk(&rig(2.0), &data, &[]);
         let context = context(&walk);
@@ -118,20 +133,26 @@ mod tests {
             .map(|t| context.low + context.span * (0.5 + 0.5 * (0.7 * t).sin()))
             .collect();
         let v: Vec<f64> = time.iter().map(|t| context.speed * (0.7 * t).cos()).collect();
-        for friction in [false, true] {
+        for (friction, lag) in [(false, 0.0), (true, 0.0), (false, 10.0), (true, 10.0)] {
             let force = |(q, v): (&f64, &f64)| {
                 let way = if friction { v.signum() } else { 1.0 };
                 0.3 + 0.2 * v.signum() + 0.05 * way * (k * q + 0.4).sin()
             };
-            let force: Vec<f64> = q.iter().zip(&v).map(force).collect();
-            let cells = Cells::of([&q, &v, &force], &context, 400.0);
+            let mut force: Vec<f64> = q.iter().zip(&v).map(force).collect();
+            let mut late = force[0];
+            for force in force.iter_mut().filter(|_| lag > 0.0) {
+                late += (*force - late) / (lag + 0.5);
+                *force = late;
+            }
+            let left = Left { q: q.clone(), v: v.clone(), force, lag };
+            let way = Way::of(&left, &context);
             let tried: Vec<f64> =
                 (1..200).map(|i| APART * TAU * f64::from(i) / context.span).collect();
-            let gains =
-                |friction| tried.iter().map(|k| cells.gain(*k, friction)).collect::<Vec<f64>>();
-            let [first, _] = crests(&tried, &gains(friction));
+            let gains: Vec<[f64; 2]> = tried.iter().map(|k| way.gains(*k)).collect();
+            let of = |kind: usize| gains.iter().map(|both| both[kind]).collect::<Vec<f64>>();
+            let [first, _] = crests(&tried, &of(usize::from(friction)));
             assert!((first / k - 1.0).abs() < 0.5 * APART / 23.5, "{first} 1/m of {k}");
-            let most = |friction| gains(friction).into_iter().fold(0.0, f64::max);
+            let most = |kind| of(usize::from(kind)).into_iter().fold(0.0, f64::max);
             assert!(most(friction) > 5.0 * most(!friction), "the other kind shows less");
         }
     }
