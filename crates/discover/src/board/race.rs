@@ -8,6 +8,12 @@ use identify::{
 };
 use rayon::prelude::*;
 
+/// The first heat is run on one in so many of the training blocks: who is last is seen on these.
+const FEW: usize = 3;
+
+/// And on no fewer than so many.
+const LEAST: usize = 6;
+
 impl Board<'_> {
     /// Fits models on the training blocks, each from its own values; after each of the `heats`, of so many simulations in
     /// all, only so many of the best are kept. Those, the best first by the logarithms of their windows' misfits, with
@@ -21,9 +27,36 @@ impl Board<'_> {
         heats: &[(usize, usize)],
         patience: &Patience,
     ) -> Vec<(f64, Kind, Rig)> {
+        let mut heats: Vec<(usize, usize)> = heats.to_vec();
+        heats.push((patience.simulations, usize::MAX));
+        let training: Vec<usize> = (0..self.trains.len()).filter(|k| self.trains[*k]).collect();
+        let few: Vec<usize> = training.iter().copied().step_by(FEW).collect();
+        let (simulations, kept) = heats[0];
+        // An imposed motion is one run whatever is taken of it.
+        if self.imposed() || few.len() < LEAST || rigs.len() <= kept {
+            return self.run(rigs, &training, &heats, patience);
+        }
+        let left = self.run(rigs, &few, &heats[..1], patience);
+        let left: Vec<(Kind, Rig)> = left.into_iter().map(|(_, kind, rig)| (kind, rig)).collect();
+        for (so_many, _) in &mut heats {
+            *so_many -= simulations;
+        }
+        self.run(&left, &training, &heats[1..], patience)
+    }
+
+    /// The heats of a race on these blocks.
+    fn run(
+        &self,
+        rigs: &[(Kind, Rig)],
+        blocks: &[usize],
+        heats: &[(usize, usize)],
+        patience: &Patience,
+    ) -> Vec<(f64, Kind, Rig)> {
         let problems: Vec<(Kind, Problem<'_>)> = rigs
             .iter()
-            .filter_map(|(kind, rig)| Some((*kind, self.problem(rig, |k| self.trains[k]).ok()?)))
+            .filter_map(|(kind, rig)| {
+                Some((*kind, self.problem(rig, |k| blocks.contains(&k)).ok()?))
+            })
             .collect();
         let mut all: Vec<(Kind, &Problem<'_>, Descent<'_, '_>)> = problems
             .par_iter()
@@ -36,8 +69,7 @@ impl Board<'_> {
             let logarithms = pieces.iter().map(|piece| piece.misfit().max(f64::MIN_POSITIVE).ln());
             logarithms.sum::<f64>() / pieces.len().max(1) as f64
         };
-        for (simulations, kept) in heats.iter().copied().chain([(patience.simulations, usize::MAX)])
-        {
+        for (simulations, kept) in heats.iter().copied() {
             let heat = Patience { simulations, ..*patience };
             all.par_iter_mut().for_each(|(.., descent)| descent.go(&heat));
             all.sort_by(|a, b| far(&a.2).total_cmp(&far(&b.2)));

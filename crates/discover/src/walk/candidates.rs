@@ -52,6 +52,15 @@ const BEGUN: [(usize, usize); 3] = [(2, 10), (4, 4), (HEAT, 2)];
 /// What does not begin smoothly and leaves more than a right model is begun once more from so many times its amount.
 const AROUND: [f64; 4] = [0.8, 0.9, 1.1, 1.25];
 
+/// And from so many times its load.
+const LOADS: [f64; 2] = [0.5, 2.0];
+
+/// So is one of another kind that leaves no more than so many times what the nearest does.
+const RIVAL: f64 = 1.3;
+
+/// Of the logarithm of what a window leaves, what does not begin smoothly takes away so much at least.
+const NEARER: f64 = 0.02;
+
 /// What is begun once more is as good as a model with an effect more if it leaves no more than so many times as much.
 const AS_NEAR: f64 = 1.005;
 
@@ -127,31 +136,45 @@ impl Walk<'_> {
             let all: Vec<(Kind, Rig)> = each.map(one).collect();
             near.extend(self.short.raced(&all, &BEGUN, &AFRESH));
         }
+        // One that is far from a load that hangs on a joint is no nearer with one, on short windows either.
+        let without = self.short.raced(&[(Kind::Compliance, point.rig.clone())], &BEGUN, &AFRESH);
+        let most = without.first().map_or(f64::INFINITY, |(far, ..)| far - NEARER);
+        near.retain(|(far, ..)| *far < most);
         let now = self.judged(&self.best.blocks);
         self.longer(near, (&now, context))
     }
 
-    /// What does not begin smoothly once more, if it is the nearest of all and not down at the floor.
+    /// What does not begin smoothly once more, if it is the nearest of all and not down at the floor, and its rivals of
+    /// another kind.
     pub(super) fn beside(&self, all: &[Candidate], context: &Context) -> Vec<Candidate> {
-        let Some((best, level)) = self.nearest(all) else { return Vec::new() };
-        if best.kind.tried().is_empty() || level < DOWN {
+        let Some((best, least)) = self.nearest(all) else { return Vec::new() };
+        if best.kind.tried().is_empty() || least < DOWN {
             return Vec::new();
         }
-        self.around(best.kind, &best.fitted.rig, context)
+        let joints = LAWS.iter().filter(|kind| !kind.tried().is_empty());
+        let rivals = joints.filter_map(|kind| {
+            let own: Vec<Candidate> = all.iter().filter(|c| c.kind == *kind).cloned().collect();
+            let (nearest, level) = self.nearest(&own)?;
+            (level < RIVAL * least).then(|| nearest.fitted.rig.clone()).map(|rig| (*kind, rig))
+        });
+        let rivals: Vec<(Kind, Rig)> = rivals.collect();
+        rivals.iter().flat_map(|(kind, rig)| self.around(*kind, rig, context)).collect()
     }
 
-    /// What does not begin smoothly once more from a little more and a little less of it than `rig` has: wherever the
-    /// load meets its tooth between other samples there is a minimum of its own.
+    /// What does not begin smoothly once more from a little more and a little less of it than `rig` has, and from another
+    /// load: wherever the load meets its tooth between other samples there is a minimum of its own.
     fn around(&self, kind: Kind, rig: &Rig, context: &Context) -> Vec<Candidate> {
         let about = kind.about();
-        let name = format!("{}.{}", about.name, about.keys[0].name);
-        let with = |share: &f64| {
+        let with = |(key, share): (&str, &f64)| {
+            let name = format!("{}.{key}", about.name);
             let mut rig = rig.clone();
             let value = rig.value(&name).unwrap_or(0.0);
             identify::fit::binding::set(&mut rig, &name, share * value);
             (kind, rig)
         };
-        let all: Vec<(Kind, Rig)> = AROUND.iter().map(with).collect();
+        let amounts = AROUND.iter().map(|share| (about.keys[0].name, share));
+        let loads = LOADS.iter().map(|share| ("ratio", share));
+        let all: Vec<(Kind, Rig)> = amounts.chain(loads).map(with).collect();
         let now = self.judged(&self.best.blocks);
         self.longer(self.short.raced(&all, &[(HEAT, 2)], &AFRESH), (&now, context))
     }
