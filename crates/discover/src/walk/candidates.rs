@@ -136,11 +136,14 @@ impl Walk<'_> {
             let all: Vec<(Kind, Rig)> = each.map(one).collect();
             near.extend(self.short.raced(&all, &BEGUN, &AFRESH));
         }
-        // One that is far from a load that hangs on a joint is no nearer with one, on short windows either.
-        let without = self.short.raced(&[(Kind::Compliance, point.rig.clone())], &BEGUN, &AFRESH);
-        let most = without.first().map_or(f64::INFINITY, |(far, ..)| far - NEARER);
-        near.retain(|(far, ..)| *far < most);
         let now = self.judged(&self.best.blocks);
+        if now.level() > GROSS {
+            // What shows so much on long windows does on short ones.
+            let without =
+                self.short.raced(&[(Kind::Compliance, point.rig.clone())], &BEGUN, &AFRESH);
+            let most = without.first().map_or(f64::INFINITY, |(far, ..)| far - NEARER);
+            near.retain(|(far, ..)| *far < most);
+        }
         self.longer(near, (&now, context))
     }
 
