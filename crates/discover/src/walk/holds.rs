@@ -16,83 +16,99 @@ use identify::{
     Hold, Rig,
     fit::{Data, FitError, hold, starts},
 };
+use rayon::prelude::*;
 use std::cmp::Ordering;
+
+/// Of two ways that hold nothing the nearer one leaves so many times less, if it is to count.
+const NOTABLY: f64 = 1.02;
 
 /// Looks for what the model `rig` of the record `data` lacks. Where the rig file does not say what the input does between
 /// its samples the record does: beside the nominal model, beside the nearest of every round, and once more beside the
 /// last one.
 pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitError> {
     let Some(told) = hold::told(rig, data)? else {
-        return walked(rig, data, None, options).map(|end| end.found);
+        return walked(rig, data, &[], options).map(|end| end.found);
     };
-    let with = |hold: Hold, asks: bool| -> Result<End, FitError> {
-        let [own, other] = [hold, opposite(hold)].map(|hold| Data { hold, ..data.clone() });
-        let rig = rig.clone().saying(Some(hold));
-        let end = walked(&rig, &own, Some(&other).filter(|_| asks), options)?;
+    let as_in = |hold: Hold| Data { hold, ..data.clone() };
+    let with = |hold: Hold, others: &[Data]| -> Result<End, FitError> {
+        let end = walked(&rig.clone().saying(Some(hold)), &as_in(hold), others, options)?;
         Ok(End { found: Discovery { hold: Some(hold), ..end.found }, ..end })
     };
-    let first = with(told.hold, true)?;
-    if !first.other {
-        return Ok(first.found);
-    }
-    let second = with(opposite(told.hold), false)?.found;
+    let first = with(told.hold, &told.others.map(as_in))?;
+    let Some(other) = first.other else { return Ok(first.found) };
+    let second = with(other, &[])?.found;
     Ok(if simpler(&second, &first.found) { second } else { first.found })
 }
 
-/// The other of the two ways between samples.
-fn opposite(hold: Hold) -> Hold {
-    if hold == Hold::ZeroOrder { Hold::Smooth } else { Hold::ZeroOrder }
+/// A model refitted to the record with its input another way.
+struct Otherwise {
+    hold: Hold,
+    /// By how many standard errors it is nearer so.
+    t: f64,
+    /// What it leaves, of what it leaves this way [1].
+    share: f64,
 }
 
 impl Walk<'_> {
-    /// A model refitted to the record with its input the other way, and by how many standard errors that is nearer; none
-    /// where it is not asked.
-    fn the_other_way(&self, rig: &Rig, near: &Fitted) -> Result<Option<(f64, f64)>, FitError> {
-        let Some(other) = self.other else { return Ok(None) };
-        let board = Board { data: other, ..self.board.clone() };
-        let x = starts::nominal(&board.problem(rig, |_| true)?);
-        let there = board.fit(rig, Some((&x, &near.pieces)), &FIRST)?;
-        let [here, there] = [near, &there].map(|fitted| self.judged(&fitted.blocks));
-        Ok(Some((here.against(&there), there.level() / here.level())))
+    /// A model with its input each of the other ways, where they are asked.
+    fn other_ways(&self, rig: &Rig, near: &Fitted) -> Result<Vec<Otherwise>, FitError> {
+        let one = |other: &Data| {
+            let board = Board { data: other, ..self.board.clone() };
+            let x = starts::nominal(&board.problem(rig, |_| true)?);
+            let there = board.fit(rig, Some((&x, &near.pieces)), &FIRST)?;
+            let [here, there] = [near, &there].map(|fitted| self.judged(&fitted.blocks));
+            let share = there.level() / here.level();
+            Ok(Otherwise { hold: other.hold, t: here.against(&there), share })
+        };
+        self.others.par_iter().map(one).collect()
     }
 
-    /// Whether the nearest of the candidates, or without one the last model, is surely much nearer to the record with its
-    /// input the other way: then this is the wrong one, and what is missing with it is another thing. What is at the floor
-    /// is there already.
-    pub(super) fn turns(&self, all: &[Candidate]) -> Result<bool, FitError> {
-        if self.other.is_none() {
-            return Ok(false);
+    /// The way in which the nearest of the candidates, or without one the last model, is surely much nearer to the
+    /// record, if there is one: then this is the wrong one, and what is missing with it is another thing. What is at the
+    /// floor is there already.
+    pub(super) fn turns(&self, all: &[Candidate]) -> Result<Option<Hold>, FitError> {
+        if self.others.is_empty() {
+            return Ok(None);
         }
         let all = all.iter().map(|candidate| &candidate.fitted).chain([&self.best]);
         let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
         let near = all.min_by(|a, b| level(a).total_cmp(&level(b))).unwrap_or(&self.best);
-        // Refitted as far as the other will be: a candidate may still be on its way.
+        // Refitted as far as the others will be: a candidate may still be on its way.
         let near = self.board.fit(&near.rig, Some((&near.x, &near.pieces)), &FIRST)?;
         if level(&near) < ABOVE {
-            return Ok(false);
+            return Ok(None);
         }
-        let other = self.the_other_way(&near.rig, &near)?;
-        Ok(other.is_some_and(|(t, share)| t > SURE && ALIKE * share < 1.0))
+        let ways = self.other_ways(&near.rig, &near)?.into_iter();
+        let turns = ways.filter(|other| other.t > SURE && ALIKE * other.share < 1.0);
+        Ok(turns.min_by(|a, b| a.share.total_cmp(&b.share)).map(|other| other.hold))
     }
 
-    /// Whether the record may be simpler with its input the other way: the last model is nearer so, or is as near
-    /// without one of its effects, or leaves something and is not surely further off.
-    pub(super) fn may_be_other(&self) -> Result<bool, FitError> {
+    /// The way in which the record may be simpler, if there is one: the last model is nearer so, or is as near without
+    /// one of its effects, or leaves something and is not surely further off. A line and a smooth curve may differ by
+    /// nothing that counts.
+    pub(super) fn may_be_other(&self) -> Result<Option<Hold>, FitError> {
         let best = &self.best;
-        let Some((t, _)) = self.the_other_way(&best.rig, best)? else { return Ok(false) };
         let leaves = self.leaves(best) > MORE || self.struck();
-        if t > UNSURE || leaves && t > -SURE {
-            return Ok(true);
+        let held = |hold: Hold| hold == Hold::ZeroOrder;
+        let nearer = |other: &Otherwise| {
+            let differs = held(other.hold) != held(self.board.data.hold);
+            let by = if differs { 1.0 } else { NOTABLY };
+            other.share * by < 1.0 && other.t > UNSURE || differs && leaves && other.t > -SURE
+        };
+        if let Some(other) = self.other_ways(&best.rig, best)?.into_iter().find(nearer) {
+            return Ok(Some(other.hold));
         }
         for effect in &best.rig.effects {
+            if self.given.effects.iter().any(|own| own.name == effect.name) {
+                continue;
+            }
             let without = lacking(&best.rig, &effect.name);
-            let given = self.given.effects.iter().any(|own| own.name == effect.name);
-            let other = self.the_other_way(&without, best)?;
-            if !given && other.is_some_and(|(_, share)| share < ALIKE) {
-                return Ok(true);
+            let all = self.other_ways(&without, best)?;
+            if let Some(other) = all.into_iter().find(|other| other.share < ALIKE) {
+                return Ok(Some(other.hold));
             }
         }
-        Ok(false)
+        Ok(None)
     }
 }
 
@@ -109,7 +125,7 @@ pub(super) fn simpler(one: &Discovery, other: &Discovery) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Data, Discovery, Hold, simpler};
+    use super::{Data, Discovery, Hold, Rig, simpler};
     use crate::{verdict::Verdict, walk::made};
     use identify::fit::Seen;
 
@@ -146,14 +162,15 @@ mod tests {
         };
         let [line, step] = [with(Hold::Linear), with(Hold::ZeroOrder)];
         let bias = made::with(&made::rig(2.0), identify::effects::Kind::CurrentBias, &[made::BIAS]);
-        let asked = |own: &Data, other: &Data| {
-            let mut walk = made::walk(&bias, own, &[]);
-            assert!(!walk.turns(&[]).unwrap(), "nobody asks");
-            walk.other = Some(other);
-            (walk.turns(&[]).unwrap(), walk.may_be_other().unwrap())
-        };
-        assert_eq!(asked(&step, &line), (true, true));
-        assert_eq!(asked(&line, &step), (false, false));
+        fn asked<'a>(bias: &'a Rig, own: &'a Data, others: &'a [Data]) -> [Option<Hold>; 2] {
+            let mut walk = made::walk(bias, own, &[]);
+            assert_eq!(walk.turns(&[]).unwrap(), None, "nobody asks");
+            walk.others = others;
+            [walk.turns(&[]).unwrap(), walk.may_be_other().unwrap()]
+        }
+        let ways = [step, line];
+        assert_eq!(asked(&bias, &ways[0], &ways[1..]), [Some(Hold::Linear); 2]);
+        assert_eq!(asked(&bias, &ways[1], &ways[..1]), [None; 2]);
     }
 
     #[test]

@@ -58,8 +58,8 @@ pub(super) fn walk<'a>(rig: &Rig, data: &'a Data, loose: &[(String, f64)]) -> Wa
         ranking: Vec::new(),
         strayed: Vec::new(),
         before_held: None,
-        other: None,
-        turned: false,
+        others: &[],
+        turned: None,
         reached: 1.0,
     }
 }

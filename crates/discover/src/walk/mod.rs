@@ -28,7 +28,7 @@ use crate::{
 use answer::{NEARLY_ALL, NOISY};
 pub use holds::discover;
 use identify::{
-    Rig,
+    Hold, Rig,
     effects::Context,
     fit::{Data, FitError, binding, search::Patience},
 };
@@ -82,10 +82,10 @@ struct Walk<'a> {
     strayed: Vec<(String, f64)>,
     /// The last model before what had strayed in it was held.
     before_held: Option<strayed::Loosened>,
-    /// The record with its input the other way between its samples, where that is asked.
-    other: Option<&'a Data>,
-    /// Whether it is nearer so.
-    turned: bool,
+    /// The record with its input the other ways between its samples, where that is asked.
+    others: &'a [Data],
+    /// The one in which it is nearer.
+    turned: Option<Hold>,
     /// What a model of the record is known to leave, or the floor [1].
     reached: f64,
 }
@@ -93,18 +93,13 @@ struct Walk<'a> {
 /// How a walk ends.
 struct End {
     found: Discovery,
-    /// Whether the record may be simpler with its input the other way.
-    other: bool,
+    /// The other way of its input in which the record may be simpler.
+    other: Option<Hold>,
 }
 
-/// Looks for what the model `rig` of the record `data` lacks; whether the record is nearer with its input as in `other`
+/// Looks for what the model `rig` of the record `data` lacks; whether the record is nearer with its input as in one of the `others`
 /// is asked on the way.
-fn walked(
-    rig: &Rig,
-    data: &Data,
-    other: Option<&Data>,
-    options: &Options,
-) -> Result<End, FitError> {
+fn walked(rig: &Rig, data: &Data, others: &[Data], options: &Options) -> Result<End, FitError> {
     let still;
     let data = if data.force.is_some() {
         still = crate::rest::rested(data);
@@ -145,8 +140,8 @@ fn walked(
         ranking: Vec::new(),
         strayed,
         before_held: None,
-        other,
-        turned: false,
+        others,
+        turned: None,
         reached: 1.0,
     };
     walk.begun_anew()?;
@@ -161,7 +156,7 @@ fn walked(
     let refit = walk.polish(&refit, options.seed)?;
     walk.drop_unsure(rig, &refit, &mut effects)?;
     let before = walk.board.judged(&fixed, None)?;
-    let other = walk.turned || walk.may_be_other()?;
+    let other = if walk.turned.is_some() { walk.turned } else { walk.may_be_other()? };
     let found = walk.answer((rig, &before, &refit), (effects, &start), &context)?;
     Ok(End { found, other })
 }
@@ -257,7 +252,7 @@ impl Walk<'_> {
             let first = Some(start).filter(|_| round == 0);
             let before = (self.board.clone(), self.best.clone());
             let found = self.step(context, options, (round, first))?;
-            let found = if bare && round == 0 && !self.turned {
+            let found = if bare && round == 0 && self.turned.is_none() {
                 self.plain(found.as_ref(), context, &before.1)?
             } else {
                 found.into_iter().collect()
@@ -289,13 +284,13 @@ impl Walk<'_> {
         context: &Context,
         options: &Options,
     ) -> Result<(), FitError> {
-        if self.turned {
+        if self.turned.is_some() {
             return Ok(());
         }
         self.drop_each(effects)?;
-        let other = self.other.take();
+        let others = std::mem::take(&mut self.others);
         self.exchange_each(effects, context, options)?;
-        self.other = other;
+        self.others = others;
         Ok(())
     }
 
@@ -314,8 +309,8 @@ impl Walk<'_> {
         let candidates = self.candidates(context, options, (round, start))?;
         let all = self.finely(candidates)?;
         let mut all = self.told_apart(&now, all, context)?;
-        if self.turns(&all)? {
-            self.turned = true;
+        self.turned = self.turns(&all)?;
+        if self.turned.is_some() {
             return Ok(None);
         }
         // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.

@@ -11,6 +11,7 @@ use super::{
 };
 use super::{search::Patience, window::Window};
 use crate::{Hold, Rig, doctor::noise};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Windows so long [s]: too short for what the model lacks to add up.
@@ -39,12 +40,14 @@ const SURE: f64 = 3.0;
 pub struct Told {
     /// What the input does between samples.
     pub hold: Hold,
+    /// The other ways, the nearer first.
+    pub others: [Hold; 2],
     /// Whether the record shows it beyond chance.
     pub sure: bool,
 }
 
-/// What the input of `rig` does between the samples of the record `data`: what is free is fitted with either, from the
-/// values of `rig`, and the nearer one is told. None where the rig file says it, or there is nothing to be said. Fails
+/// What the input of `rig` does between the samples of the record `data`: what is free is fitted with each, from the
+/// values of `rig`, and the nearest is told. None where the rig file says it, or there is nothing to be said. Fails
 /// where the record cannot be fitted at all.
 pub fn told(rig: &Rig, data: &Data) -> Result<Option<Told>, FitError> {
     if rig.unsaid().is_none() {
@@ -58,13 +61,15 @@ pub fn told(rig: &Rig, data: &Data) -> Result<Option<Told>, FitError> {
     if !rig.free.iter().any(|free| free == OFFSET) {
         rig.free.push(OFFSET.to_owned());
     }
-    // What is measured of an input that nobody holds is smooth; straight it is only on paper.
-    let [smooth, held] = [Hold::Smooth, Hold::ZeroOrder];
-    let both = rayon::join(|| misfit(&rig, data, smooth), || misfit(&rig, data, held));
-    let nearer: Vec<f64> = both.0?.iter().zip(both.1?).map(|(line, step)| line - step).collect();
-    let mean = nearer.iter().sum::<f64>() / nearer.len().max(1) as f64;
-    let hold = if mean > 0.0 { held } else { smooth };
-    Ok(Some(Told { hold, sure: sure(&nearer, mean) }))
+    let ways = [Hold::Smooth, Hold::ZeroOrder, Hold::Linear];
+    let far = ways.par_iter().map(|hold| Ok((*hold, misfit(&rig, data, *hold)?)));
+    let mut far: Vec<(Hold, Vec<f64>)> = far.collect::<Result<_, FitError>>()?;
+    let sum = |windows: &Vec<f64>| windows.iter().sum::<f64>();
+    far.sort_by(|a, b| sum(&a.1).total_cmp(&sum(&b.1)));
+    let [nearest, next, last] = far.as_slice() else { return Ok(None) };
+    let nearer: Vec<f64> = next.1.iter().zip(&nearest.1).map(|(next, near)| next - near).collect();
+    let mean = sum(&nearer) / nearer.len().max(1) as f64;
+    Ok(Some(Told { hold: nearest.0, others: [next.0, last.0], sure: sure(&nearer, mean) }))
 }
 
 /// Whether the `mean` of the windows is so far from 0 that it is no chance.

@@ -81,6 +81,9 @@ const EVEN: f64 = 1e-3;
 /// A second difference so many times as large as those around it is a corner.
 const SHARP: f64 = 8.0;
 
+/// Second differences of a straight line are so much of its values, by rounding [1].
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// Whether the displacement `u` has a corner at each sample: its second difference stands out from those two and three
 /// samples away. No smooth curve is led across it.
 pub fn corners(u: &[f64]) -> Vec<bool> {
@@ -92,7 +95,8 @@ pub fn corners(u: &[f64]) -> Vec<bool> {
         let far = [2, 3].into_iter().flat_map(|k| [i.checked_sub(k), Some(i + k)]);
         far.flatten().map(bend).fold(0.0, f64::max)
     };
-    (0..u.len()).map(|i| bend(i) > SHARP * around(i) && bend(i) > 0.0).collect()
+    let rounding = |i: usize| ROUNDING * (u[i].abs() + bend(i));
+    (0..u.len()).map(|i| bend(i) > SHARP * around(i) && bend(i) > rounding(i)).collect()
 }
 
 /// The velocity [m/s] at sample `i`: of the quartic through five samples, or of the parabola through three where they
