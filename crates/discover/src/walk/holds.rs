@@ -150,6 +150,14 @@ mod tests {
         }
     }
 
+    /// Whether a model turns, and whether it may be simpler otherwise.
+    fn asked<'a>(bias: &'a Rig, own: &'a Data, others: &'a [Data]) -> [Option<Hold>; 2] {
+        let mut walk = made::walk(bias, own, &[]);
+        assert_eq!(walk.turns(&[]).unwrap(), None, "nobody asks");
+        walk.others = others;
+        [walk.turns(&[]).unwrap(), walk.may_be_other().unwrap()]
+    }
+
     #[test]
     fn the_record_is_asked_for_the_other_way_and_the_wrong_one_turns() {
         // Every sixteenth sample. Its input goes straight: held it would come half a sample, 40 ms, late.
@@ -162,12 +170,6 @@ mod tests {
         };
         let [line, step] = [with(Hold::Linear), with(Hold::ZeroOrder)];
         let bias = made::with(&made::rig(2.0), identify::effects::Kind::CurrentBias, &[made::BIAS]);
-        fn asked<'a>(bias: &'a Rig, own: &'a Data, others: &'a [Data]) -> [Option<Hold>; 2] {
-            let mut walk = made::walk(bias, own, &[]);
-            assert_eq!(walk.turns(&[]).unwrap(), None, "nobody asks");
-            walk.others = others;
-            [walk.turns(&[]).unwrap(), walk.may_be_other().unwrap()]
-        }
         let ways = [step, line];
         assert_eq!(asked(&bias, &ways[0], &ways[1..]), [Some(Hold::Linear); 2]);
         assert_eq!(asked(&bias, &ways[1], &ways[..1]), [None; 2]);

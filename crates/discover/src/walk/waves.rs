@@ -54,7 +54,7 @@ const ALL: usize = LINES + 2;
 struct Way<'a> {
     q: &'a [f64],
     /// The direction of the motion, 0 in slow motion.
-    way: Vec<f64>,
+    turn: Vec<f64>,
     force: &'a [f64],
     /// The lines.
     lines: Vec<SVector<f64, LINES>>,
@@ -74,7 +74,7 @@ impl<'a> Way<'a> {
             late += (SVector::from([1.0, *way, x, way * x]) - late) * share;
             lines.push(late);
         }
-        Self { q: &left.q, way, force: &left.force, lines, share }
+        Self { q: &left.q, turn: way, force: &left.force, lines, share }
     }
 
     /// By how much a force, and a friction, that repeats along the way lowers the sum of squares that a line for each
@@ -83,7 +83,7 @@ impl<'a> Way<'a> {
         let mut late = [[0.0; 2]; 2];
         let mut sums = [(SMatrix::<f64, ALL, ALL>::zeros(), SVector::<f64, ALL>::zeros()); 2];
         for (((q, way), force), lines) in
-            self.q.iter().zip(&self.way).zip(self.force).zip(&self.lines)
+            self.q.iter().zip(&self.turn).zip(self.force).zip(&self.lines)
         {
             let (sin, cos) = (k * q).sin_cos();
             for (late, by) in late.iter_mut().zip([1.0, *way]) {
