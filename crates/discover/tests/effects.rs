@@ -296,6 +296,15 @@ fn a_play_that_the_parameters_take_up_in_part_is_found_from_some_of_its_beginnin
     }
 }
 
+/// A record that does not say that its input is held, nothing hidden: half a sample late is no effect.
+#[test]
+fn an_input_that_is_held_is_no_delay_of_one_that_goes_on() {
+    let recipe = Recipe::drawn(8_010_299);
+    let (_, rig, data) = made(&recipe, 8_010_299, 60.0);
+    let answer = discover(&rig, &data, &Options::default()).expect("an answer");
+    assert_eq!((answer.verdict.name(), answer.hold), ("nothing_missing", Some(Hold::ZeroOrder)));
+}
+
 /// Four springs that slip, where the rig file has a Dahl model: found one after the other, as many as the record shows.
 #[test]
 fn springs_that_slip_are_found_one_after_the_other() {

@@ -88,6 +88,20 @@ impl Walk<'_> {
     /// nothing that counts.
     pub(super) fn may_be_other(&self) -> Result<Option<Hold>, FitError> {
         let best = &self.best;
+        let nearest = |all: Vec<Otherwise>, asked: &dyn Fn(&Otherwise) -> bool| {
+            let asked = all.into_iter().filter(|other| asked(other));
+            asked.min_by(|a, b| a.share.total_cmp(&b.share)).map(|other| other.hold)
+        };
+        // What comes late between samples looks like an effect: that is asked first.
+        for effect in &best.rig.effects {
+            if self.given.effects.iter().any(|own| own.name == effect.name) {
+                continue;
+            }
+            let all = self.other_ways(&lacking(&best.rig, &effect.name), best)?;
+            if let Some(hold) = nearest(all, &|other| other.share < ALIKE) {
+                return Ok(Some(hold));
+            }
+        }
         let leaves = self.leaves(best) > MORE || self.struck();
         let held = |hold: Hold| hold == Hold::ZeroOrder;
         let nearer = |other: &Otherwise| {
@@ -95,20 +109,7 @@ impl Walk<'_> {
             let by = if differs { 1.0 } else { NOTABLY };
             other.share * by < 1.0 && other.t > UNSURE || differs && leaves && other.t > -SURE
         };
-        if let Some(other) = self.other_ways(&best.rig, best)?.into_iter().find(nearer) {
-            return Ok(Some(other.hold));
-        }
-        for effect in &best.rig.effects {
-            if self.given.effects.iter().any(|own| own.name == effect.name) {
-                continue;
-            }
-            let without = lacking(&best.rig, &effect.name);
-            let all = self.other_ways(&without, best)?;
-            if let Some(other) = all.into_iter().find(|other| other.share < ALIKE) {
-                return Ok(Some(other.hold));
-            }
-        }
-        Ok(None)
+        Ok(nearest(self.other_ways(&best.rig, best)?, &nearer))
     }
 }
 
