@@ -138,7 +138,7 @@ impl Walk<'_> {
         }
         let now = self.judged(&self.best.blocks);
         if now.level() > GROSS {
-            // What shows so much on long windows does on short ones.
+            // What shows so much on long windows does on short ones, beside the model as it is, of whatever kind.
             let without =
                 self.short.raced(&[(Kind::Compliance, point.rig.clone())], &BEGUN, &AFRESH);
             let most = without.first().map_or(f64::INFINITY, |(far, ..)| far - NEARER);
@@ -158,7 +158,7 @@ impl Walk<'_> {
         let rivals = joints.filter_map(|kind| {
             let own: Vec<Candidate> = all.iter().filter(|c| c.kind == *kind).cloned().collect();
             let (nearest, level) = self.nearest(&own)?;
-            (level < RIVAL * least).then(|| nearest.fitted.rig.clone()).map(|rig| (*kind, rig))
+            (level < RIVAL * least).then(|| (*kind, nearest.fitted.rig.clone()))
         });
         let rivals: Vec<(Kind, Rig)> = rivals.collect();
         rivals.iter().flat_map(|(kind, rig)| self.around(*kind, rig, context)).collect()

@@ -49,6 +49,12 @@ struct Otherwise {
     share: f64,
 }
 
+/// The way that leaves least of those for which it is so.
+fn nearest(ways: Vec<Otherwise>, so: impl Fn(&Otherwise) -> bool) -> Option<Hold> {
+    let ways = ways.into_iter().filter(so);
+    ways.min_by(|a, b| a.share.total_cmp(&b.share)).map(|other| other.hold)
+}
+
 impl Walk<'_> {
     /// A model with its input each of the other ways, where they are asked.
     fn other_ways(&self, rig: &Rig, near: &Fitted) -> Result<Vec<Otherwise>, FitError> {
@@ -78,9 +84,8 @@ impl Walk<'_> {
         if level(&near) < ABOVE {
             return Ok(None);
         }
-        let ways = self.other_ways(&near.rig, &near)?.into_iter();
-        let turns = ways.filter(|other| other.t > SURE && ALIKE * other.share < 1.0);
-        Ok(turns.min_by(|a, b| a.share.total_cmp(&b.share)).map(|other| other.hold))
+        let ways = self.other_ways(&near.rig, &near)?;
+        Ok(nearest(ways, |other| other.t > SURE && ALIKE * other.share < 1.0))
     }
 
     /// The way in which the record may be simpler, if there is one: the last model is nearer so, or is as near without
@@ -88,17 +93,13 @@ impl Walk<'_> {
     /// nothing that counts.
     pub(super) fn may_be_other(&self) -> Result<Option<Hold>, FitError> {
         let best = &self.best;
-        let nearest = |all: Vec<Otherwise>, asked: &dyn Fn(&Otherwise) -> bool| {
-            let asked = all.into_iter().filter(|other| asked(other));
-            asked.min_by(|a, b| a.share.total_cmp(&b.share)).map(|other| other.hold)
-        };
         // What comes late between samples looks like an effect: that is asked first.
         for effect in &best.rig.effects {
             if self.given.effects.iter().any(|own| own.name == effect.name) {
                 continue;
             }
             let all = self.other_ways(&lacking(&best.rig, &effect.name), best)?;
-            if let Some(hold) = nearest(all, &|other| other.share < ALIKE) {
+            if let Some(hold) = nearest(all, |other| other.share < ALIKE) {
                 return Ok(Some(hold));
             }
         }
@@ -109,7 +110,7 @@ impl Walk<'_> {
             let by = if differs { 1.0 } else { NOTABLY };
             other.share * by < 1.0 && other.t > UNSURE || differs && leaves && other.t > -SURE
         };
-        Ok(nearest(self.other_ways(&best.rig, best)?, &nearer))
+        Ok(nearest(self.other_ways(&best.rig, best)?, nearer))
     }
 }
 

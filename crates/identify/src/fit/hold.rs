@@ -1,7 +1,8 @@
 //! What the recorded input does between its samples, where the rig file does not say.
 //!
-//! An input that is held until the next sample comes half a sample later, in the mean, than one that goes on to it, and that can be more than any effect of friction. It is told by the record: of two models that differ in
-//! nothing else the nearer one.
+//! An input that is held until the next sample comes half a sample later, in the mean, than one that goes on to it, and
+//! one that goes straight lacks (ωh)²/12 of a smooth one: either can be more than any effect of friction. It is told by
+//! the record: of three models that differ in nothing else the nearest one.
 
 use super::{
     Data, FitError, binding, blocks,

@@ -158,6 +158,8 @@ fn late<D: Real>(
                 [back + 1, back].map(|back| Cubic::after(values, place(i, back)));
             let [begin, before] = earlier.line([one - part, one - moved]);
             let [after, end] = later.line([-moved, one - part]);
+            // Late by whole intervals it is one cubic, of which nothing is left of the one before.
+            let begin = if part.re() == 0.0 { after } else { begin };
             ([begin, end], [before, after])
         }
     };
@@ -220,6 +222,21 @@ mod tests {
         let slope = |s: f64| (3.0 * s - 4.0) * s + 1.0;
         let [begin, end] = [0.7, 1.7].map(|s| -10.0 * slope(s));
         assert!((by.ends[0].eps[0] - begin).abs() < 1e-9 && (by.ends[1].eps[0] - end).abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_input_that_is_late_by_nothing_is_not_late() {
+        let values = [1.0, 1.5, 3.0, 2.0, 0.5, 1.0];
+        let time = [0.0, 0.1, 0.2, 0.3];
+        for hold in [Hold::Linear, Hold::Smooth, Hold::ZeroOrder] {
+            let drive = Drive::Recorded { values: &values, first: 1, hold };
+            for i in 0..3 {
+                let [late, own] =
+                    [Some((0.0, &time[..])), None].map(|by| course(&drive, i, &[], by));
+                assert_eq!(late.at(1e-9), own.at(1e-9), "{hold:?} {i}");
+                assert_eq!(late.at(1.0), own.at(1.0), "{hold:?} {i}");
+            }
+        }
     }
 
     #[test]
