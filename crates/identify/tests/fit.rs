@@ -3,8 +3,11 @@
 use identify::{
     Hold, Rig,
     fit::{
-        Data, Fit, FitError, Options, Seen, Way, binding, fit, hold, problem::Problem, search::End,
-        simulate, window::Window,
+        Data, Fit, FitError, Options, Seen, Way, binding, fit, hold, models,
+        problem::{Piece, Problem},
+        search::End,
+        simulate,
+        window::Window,
     },
     march::{Drive, Start, Tolerance, march},
 };
@@ -222,6 +225,39 @@ fn a_windows_start_is_not_taken_for_sliding_where_the_drive_rests() {
     let run = simulate(&truth, &data, Some(0.7)).expect("a run");
     let misfit = &run.gap[0];
     assert!(misfit.after < 1.5 * NOISE[0], "{} m in windows, noise {}", misfit.after, NOISE[0]);
+}
+
+#[test]
+fn a_window_that_decides_late_between_resting_and_slipping_is_begun_where_its_first_samples_say() {
+    // A slow force on a mass whose friction falls with the speed: it creeps, sticks and breaks away.
+    let truth = Rig::parse(
+        "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 1.0\nstiffness = 20.0\n[friction]\n\
+         name = \"lugre\"\nf_c = 4.0\nf_s = 6.0\nv_s = 0.01\nsigma_0 = 2e5\nsigma_1 = 300.0\nsigma_2 = 5.0\n\
+         [fit]\nfree = [\"f_c\"]\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"q\"\n",
+    )
+    .expect("a rig file");
+    let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
+    let input: Vec<f64> =
+        time.iter().map(|t| 7.0 * (0.5 * t).sin() + 1.5 * (4.1 * t).sin()).collect();
+    let model = binding::model::<f64>(&truth, &|_| None);
+    let drive = Drive::Recorded { values: &input, first: 0, hold: Hold::Linear };
+    let start = Start { q: 0.0, v: 0.0, z: vec![0.0] };
+    let fine = Tolerance { q: 1e-10, v: 1e-10, z: 1e-8, steps: 10_000_000 };
+    let q = march(&model, &drive, &time, &start, &fine).expect("a motion").q;
+    let q = q.iter().map(|q| 1e-7 * (1e7 * q).round()).collect();
+    let data = Data::driven(time, input, Hold::Linear, Seen::new("position", q, 1e-7));
+    let base = Problem::unfree(&truth, &data).expect("a problem");
+    let windows = (1..26).map(|k| Window::new(&data, 150 * k, 150 * k + 150).remembering(&data));
+    let problem = Problem { windows: windows.collect(), tolerance: 1e-8, ..base };
+    let worst = |pieces: &[Piece]| {
+        let mean = |p: &Piece| p.misfit() / p.residuals.len() as f64;
+        pieces.iter().map(mean).fold(0.0, f64::max)
+    };
+    let first = models::converged(&problem, &[], None, 8);
+    assert!(worst(&first) > 1e4, "one went another way: {}", worst(&first));
+    // With whole windows alone it stays 9000 times the noise off.
+    let all = models::rescued(&problem, &[], first);
+    assert!(worst(&all) < 3.0, "{}", worst(&all));
 }
 
 #[test]

@@ -24,13 +24,26 @@ impl Law for DwellStiction {
         // The age is forgotten as the contact slips by `wear` deflections of its bristles; what they follow is no slip.
         let speed = if at.v.re() < 0.0 { -at.v } else { at.v };
         let aged = p[1].recip() * at.dt;
-        let worn = speed * at.held() * at.dt / (p[2] * at.grain());
+        let worn = speed * at.held(p[0] * base[0]) * at.dt / (p[2] * at.grain());
         z[0] = (base[0] + aged) / (aged + worn + 1.0);
         Act::rise(p[0] * z[0])
     }
 
-    fn start<D: Real>(p: &[D], _: usize, (way, past): (f64, Past<'_>)) -> D {
-        if way == 0.0 { D::from(1.0) - (-(p[1].recip() * past.rested)).exp() } else { D::from(0.0) }
+    fn start<D: Real>(p: &[D], _: usize, (_, past): (f64, Past<'_>)) -> D {
+        // As old as a rest before the last samples made it, and then as they did.
+        let lately: f64 = past.lately.iter().map(|[time, _]| time).sum();
+        let rested = (past.rested - lately).max(0.0);
+        let mut age = D::from(1.0) - (-(p[1].recip() * rested)).exp();
+        let mut last = 0.0;
+        for [time, run] in past.lately {
+            let way = if *run < last { *run } else { run - last };
+            // Back from a turn the bristles first let go, and then hold the other way.
+            let held = (1.0 - 2.0 * (-run / past.grain).exp()).abs();
+            let aged = p[1].recip() * *time;
+            age = (age + aged) / (aged + p[2].recip() * (way * held / past.grain) + 1.0);
+            last = *run;
+        }
+        age
     }
 }
 
@@ -41,10 +54,17 @@ mod tests {
 
     #[test]
     fn a_contact_is_as_old_as_it_has_rested() {
-        let age = |way: f64, rested: f64| {
-            DwellStiction::start(&[1.0, 0.5, 1.0], 0, (way, Past { path: &[], rested }))
+        let age = |rested: f64, lately: &[[f64; 2]]| {
+            let past = Past { rested, lately, grain: 0.1, ..Past::unknown() };
+            DwellStiction::start(&[1.0, 0.5, 1.0], 0, (0.0, past))
         };
-        assert!((age(0.0, 0.5) - (1.0 - (-1.0_f64).exp())).abs() < 1e-12);
-        assert_eq!((age(0.0, 0.0), age(1.0, 9.0)), (0.0, 0.0));
+        let there = 1.0 - (-1.0_f64).exp();
+        assert!((age(0.5, &[]) - there).abs() < 1e-12);
+        assert_eq!(age(0.0, &[]), 0.0);
+        let rests = vec![[0.001, 0.0]; 500];
+        assert!((age(0.5, &rests) - there).abs() < 1e-3);
+        // It ages by (1 − 1/2)/0.5 s and wears by 0.2/0.1 · 1/2 in a second.
+        let slips: Vec<[f64; 2]> = (0..5000).map(|i| [0.001, 0.0002 * f64::from(i)]).collect();
+        assert!((age(0.0, &slips) - 0.5).abs() < 1e-3);
     }
 }

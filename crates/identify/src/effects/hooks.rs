@@ -46,9 +46,9 @@ impl<D: Real> At<'_, D> {
         pull + self.balance.gravity * self.q.sin()
     }
 
-    /// What share of its level the contact held before the stage [1]: so much of the motion is slip.
-    pub fn held(&self) -> D {
-        self.contact.0.held(self.contact.1)
+    /// What share of its level, higher by `rise` [N], the contact holds [1]: so much of the motion is slip.
+    pub fn held(&self, rise: D) -> D {
+        self.contact.0.held(self.contact.1, (self.dt, self.v, rise))
     }
 }
 
@@ -62,12 +62,16 @@ pub struct Past<'a> {
     pub path: &'a [f64],
     /// For how long it has been at rest [s].
     pub rested: f64,
+    /// The last samples: how long each took [s], and how far it had come then since it last turned [m].
+    pub lately: &'a [[f64; 2]],
+    /// The shortest deflection at which its contact slips [m].
+    pub grain: f64,
 }
 
 impl Past<'_> {
     /// Of what nothing is known: a rest as long as can be.
     pub fn unknown() -> Self {
-        Self { path: &[], rested: LONG }
+        Self { path: &[], rested: LONG, lately: &[], grain: 0.0 }
     }
 }
 

@@ -12,6 +12,12 @@ use rayon::prelude::*;
 const SHARE: f64 = 0.02;
 const LITTLE: f64 = 0.1;
 
+/// The first share of a window in which its start is looked for, how many times farther, and how far off a motion is that
+/// has gone another way [standard deviations].
+const EARLY: usize = 16;
+const LENGTHS: usize = 20;
+const GONE: f64 = 20.0;
+
 impl Problem<'_> {
     /// Every window at the variables `x`, its start as `leads` have it, or as it was seen.
     pub fn pieces(&self, x: &[f64], at: Option<(&[f64], &[Lead])>) -> Vec<Piece> {
@@ -60,6 +66,36 @@ impl Problem<'_> {
             }
         }
         best
+    }
+
+    /// A window with its start looked for in its first samples, and then in as many as a motion from there is near: where
+    /// friction decides between resting and slipping, what follows differs by leaps that no slope tells of, and only what
+    /// lies before tells the start.
+    pub(super) fn farther(
+        &self,
+        x: &[f64],
+        window: &Window,
+        start: [f64; START],
+        most: usize,
+    ) -> Piece {
+        let (mut start, mut samples) = (start, (window.len() / EARLY).max(1));
+        let all = window.beginning(window.len());
+        for _ in 0..LENGTHS {
+            let head = window.beginning(samples);
+            start = self.nearest(x, &head, self.piece(x, &head, start), most).start;
+            let motion = self.piece(x, &all, start);
+            let seen = motion.residuals.len().saturating_sub(self.starts());
+            let gone = motion.residuals[..seen].iter().position(|r| r.abs() > GONE);
+            let near = gone.map_or(window.len(), |place| place / self.channels());
+            if near <= samples {
+                break;
+            }
+            samples = near + 1;
+            if gone.is_none() {
+                break;
+            }
+        }
+        self.nearest(x, window, self.piece(x, window, start), most)
     }
 }
 

@@ -220,6 +220,9 @@ pub fn converged(
 const ASTRAY: f64 = 5.0;
 const BESIDE: f64 = 2.0;
 
+/// One that is so much worse has gone another way than the record.
+const LOST: f64 = 1e3;
+
 /// Where else a contact may begin, from what the run-up says, of its natural size.
 const ELSEWHERE: [f64; 8] = [-2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0];
 
@@ -267,13 +270,18 @@ pub fn rescued(problem: &Problem<'_>, x: &[f64], pieces: Vec<Piece>) -> Vec<Piec
         starts.sort_by(|a, b| a.1.total_cmp(&b.1));
         let mut best = piece;
         let near = middle.max(1.0) * best.residuals.len() as f64;
-        for (start, _) in starts.into_iter().take(tried) {
-            let next = problem.nearest(x, window, problem.piece(x, window, start), followed);
-            if next.misfit() < best.misfit() {
-                best = next;
-            }
-            if best.misfit() < near {
-                break;
+        let whole = |start| problem.nearest(x, window, problem.piece(x, window, start), followed);
+        let farther = |start| problem.farther(x, window, start, followed);
+        let ways: [(&dyn Fn([f64; START]) -> Piece, f64); 2] = [(&whole, 0.0), (&farther, LOST)];
+        for (way, least) in ways {
+            for (start, _) in starts.iter().take(tried) {
+                if best.misfit() < near.max(least * near) {
+                    break;
+                }
+                let next = way(*start);
+                if next.misfit() < best.misfit() {
+                    best = next;
+                }
             }
         }
         best

@@ -23,6 +23,9 @@ pub struct Window {
     pub path: Vec<f64>,
     /// For how long the displacement has been at rest before its start [s]; [`LONG`] if nobody asked.
     pub rested: f64,
+    /// The last samples before its start: how long each took [s], and how far the displacement had come then since it
+    /// last turned [m]. Empty if nobody asked.
+    pub lately: Vec<[f64; 2]>,
     /// What makes its residuals independent of each other; none if they are so.
     pub whitening: Option<Arc<Whitening>>,
 }
@@ -58,6 +61,7 @@ impl Window {
             run_up: 0.0,
             path: Vec::new(),
             rested: LONG,
+            lately: Vec::new(),
             whitening: None,
         };
         let Some(seen) = &data.displacement else { return none };
@@ -80,9 +84,11 @@ impl Window {
         let wider = if wider > BENT { wider } else { 1.0 };
         let (value, spread) = straight((time, about), look, seen.noise);
         let rested = rested(data, self.first, 4.0 * seen.noise);
+        let first = self.first;
         let mut all = self.seen(data, value, spread.map(|spread| spread * wider));
         all.path = path;
         all.rested = rested;
+        all.lately = lately(data, first, 4.0 * seen.noise);
         all
     }
 
@@ -111,7 +117,7 @@ impl Window {
 
     /// What was before it.
     pub fn past(&self) -> Past<'_> {
-        Past { path: &self.path, rested: self.rested }
+        Past { path: &self.path, rested: self.rested, lately: &self.lately, grain: 0.0 }
     }
 
     /// How well a parabola fits the samples around sample `i`, in units of their noise [1].
@@ -220,6 +226,27 @@ fn rested(data: &Data, i: usize, dead: f64) -> f64 {
     data.time[i] - data.time[since]
 }
 
+/// So many samples are the last ones.
+const LATELY: usize = 400;
+
+/// The last samples up to sample `i`: how long each took [s], and how far the displacement had come then since it last
+/// turned by more than `dead` [m].
+fn lately(data: &Data, i: usize, dead: f64) -> Vec<[f64; 2]> {
+    let Some(seen) = &data.displacement else { return Vec::new() };
+    let from = i.saturating_sub(LATELY);
+    let (mut turn, mut tip) = (seen.values[from], seen.values[from]);
+    let run = |k: usize| {
+        let value = seen.values[k];
+        if (value - tip) * (tip - turn) > 0.0 {
+            tip = value;
+        } else if (value - tip).abs() > dead {
+            (turn, tip) = (tip, value);
+        }
+        [data.time[k] - data.time[k - 1], (tip - turn).abs()]
+    };
+    (from + 1..=i).map(run).collect()
+}
+
 /// The first value, the turns by more than `dead` that are not inside larger ones that followed, and the last value.
 ///
 /// A loop that is closed leaves nothing behind (Madelung's rule), so that only turns of ever smaller swings are kept.
@@ -251,7 +278,7 @@ fn path(values: &[f64], dead: f64) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{START, Window, path};
+    use super::{START, Window, lately, path};
     use crate::{
         Hold,
         fit::data::{Data, Seen},
@@ -276,6 +303,24 @@ mod tests {
         assert!(
             (central.start[0] - truth[0]).abs() < 1e-12 && off(one_sided.start) > 3.0 * expected
         );
+    }
+
+    #[test]
+    fn the_last_samples_tell_how_far_a_motion_had_come_since_it_turned() {
+        let values = vec![0.0, 1.0, 3.0, 2.9, 3.5, 2.0, 1.9, 1.0];
+        let time: Vec<f64> = (0..8).map(f64::from).collect();
+        let data = |values: Vec<f64>| {
+            let position = Seen::new("position", values, 0.0);
+            Data::driven(time.clone(), vec![0.0; 8], Hold::ZeroOrder, position)
+        };
+        let runs: Vec<f64> = lately(&data(values), 7, 0.2).iter().map(|[_, run]| *run).collect();
+        // From 3 back to 2.9 is no turn.
+        let expected = [1.0, 3.0, 3.0, 3.5, 1.5, 1.6, 2.5];
+        assert!(
+            runs.iter().zip(expected).all(|(run, there)| (run - there).abs() < 1e-12),
+            "{runs:?}"
+        );
+        assert_eq!(lately(&data(vec![0.0; 8]), 3, 0.2), vec![[1.0, 0.0]; 3]);
     }
 
     #[test]

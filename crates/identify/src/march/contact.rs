@@ -260,12 +260,18 @@ impl<D: Real> Contact<D> {
         }
     }
 
-    /// What share of its level the states `z` hold [1].
-    pub(crate) fn held(&self, z: &[D]) -> D {
+    /// What share of its level the contact holds [1], and so what share of the motion is slip, after a stage of `dt` [s]
+    /// with velocity `v` [m/s] from the states `z`: bristles' level is what they slip at at this velocity, higher by `rise`
+    /// [N], and not F_C.
+    pub(crate) fn held(&self, z: &[D], (dt, v, rise): (f64, D, D)) -> D {
         let share = match self {
             Self::None | Self::Coulomb { .. } => return D::from(1.0),
             Self::Dahl { f_c, .. } => z[0] / *f_c,
-            Self::LuGre { f_c, sigma_0, .. } => z[0] * *sigma_0 / *f_c,
+            Self::LuGre { f_c, f_s, v_s, sigma_0, .. } => {
+                let level = slips([*f_c, *f_s, *v_s], (v, Some(rise)));
+                let path = v * dt;
+                *sigma_0 * (z[0] + path) / (*sigma_0 * size(path) + level)
+            }
             Self::MaxwellSlip { k, .. } => {
                 let force = k.iter().zip(z).fold(D::from(0.0), |sum, (k, z)| sum + *k * *z);
                 force / self.level()
@@ -334,4 +340,26 @@ fn root(w_base: f64, kappa: f64, gamma: f64) -> f64 {
         y = next;
     }
     w_base.signum() * y.powf(p)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Contact;
+
+    #[test]
+    fn what_slides_steadily_holds_its_level_and_all_its_motion_is_slip() {
+        let contact =
+            Contact::LuGre { f_c: 4.0, f_s: 6.0, v_s: 0.01, sigma_0: 1e5, sigma_1: 300.0 };
+        for v in [1e-3, -0.02, 1.0] {
+            for dt in [1e-5, 0.1] {
+                let held = contact.held(&contact.sliding(v), (dt, v, 0.0));
+                assert!((held - 1.0).abs() < 1e-12, "{held} at {v} m/s");
+            }
+        }
+        // Bristles half as far as they go, 6 N / 1e5 N/m, hold half in a short while; 1.5 N more are held by none.
+        let held = contact.held(&[3e-5], (1e-9, 0.0, 0.0));
+        assert!((held - 0.5).abs() < 1e-9, "{held}");
+        let held = contact.held(&[3e-5], (1e-9, 0.0, 1.5));
+        assert!((held - 3.0 / 7.5).abs() < 1e-9, "{held}");
+    }
 }
