@@ -86,14 +86,12 @@ impl Problem<'_> {
             let motion = self.piece(x, &all, start);
             let seen = motion.residuals.len().saturating_sub(self.starts());
             let gone = motion.residuals[..seen].iter().position(|r| r.abs() > GONE);
-            let near = gone.map_or(window.len(), |place| place / self.channels());
+            // The whole window is near, or no more of it than before.
+            let Some(near) = gone.map(|place| place / self.channels()) else { break };
             if near <= samples {
                 break;
             }
             samples = near + 1;
-            if gone.is_none() {
-                break;
-            }
         }
         self.nearest(x, window, self.piece(x, window, start), most)
     }

@@ -272,10 +272,10 @@ pub fn rescued(problem: &Problem<'_>, x: &[f64], pieces: Vec<Piece>) -> Vec<Piec
         let near = middle.max(1.0) * best.residuals.len() as f64;
         let whole = |start| problem.nearest(x, window, problem.piece(x, window, start), followed);
         let farther = |start| problem.farther(x, window, start, followed);
-        let ways: [(&dyn Fn([f64; START]) -> Piece, f64); 2] = [(&whole, 0.0), (&farther, LOST)];
+        let ways: [(&dyn Fn([f64; START]) -> Piece, f64); 2] = [(&whole, 1.0), (&farther, LOST)];
         for (way, least) in ways {
             for (start, _) in starts.iter().take(tried) {
-                if best.misfit() < near.max(least * near) {
+                if best.misfit() < least * near {
                     break;
                 }
                 let next = way(*start);

@@ -84,11 +84,11 @@ impl Window {
         let wider = if wider > BENT { wider } else { 1.0 };
         let (value, spread) = straight((time, about), look, seen.noise);
         let rested = rested(data, self.first, 4.0 * seen.noise);
-        let first = self.first;
+        let lately = lately(data, self.first, 4.0 * seen.noise);
         let mut all = self.seen(data, value, spread.map(|spread| spread * wider));
         all.path = path;
         all.rested = rested;
-        all.lately = lately(data, first, 4.0 * seen.noise);
+        all.lately = lately;
         all
     }
 
