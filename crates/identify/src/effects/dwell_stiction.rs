@@ -29,7 +29,7 @@ impl Law for DwellStiction {
         Act::rise(p[0] * z[0])
     }
 
-    fn start<D: Real>(p: &[D], _: usize, (_, past): (f64, Past<'_>)) -> D {
+    fn start<D: Real>(p: &[D], _: usize, (_, grain, past): (f64, f64, Past<'_>)) -> D {
         // As old as a rest before the last samples made it, and then as they did.
         let lately: f64 = past.lately.iter().map(|[time, _]| time).sum();
         let rested = (past.rested - lately).max(0.0);
@@ -37,10 +37,11 @@ impl Law for DwellStiction {
         let mut last = 0.0;
         for [time, run] in past.lately {
             let way = if *run < last { *run } else { run - last };
-            // Back from a turn the bristles first let go, and then hold the other way.
-            let held = (1.0 - 2.0 * (-run / past.grain).exp()).abs();
+            // Back from a turn the bristles first let go, and then hold the other way: exact of Dahl's and LuGre's in slow
+            // motion, and near of the others.
+            let held = (1.0 - 2.0 * (-run / grain).exp()).abs();
             let aged = p[1].recip() * *time;
-            age = (age + aged) / (aged + p[2].recip() * (way * held / past.grain) + 1.0);
+            age = (age + aged) / (aged + p[2].recip() * (way * held / grain) + 1.0);
             last = *run;
         }
         age
@@ -55,8 +56,8 @@ mod tests {
     #[test]
     fn a_contact_is_as_old_as_it_has_rested() {
         let age = |rested: f64, lately: &[[f64; 2]]| {
-            let past = Past { rested, lately, grain: 0.1, ..Past::unknown() };
-            DwellStiction::start(&[1.0, 0.5, 1.0], 0, (0.0, past))
+            let past = Past { rested, lately, ..Past::unknown() };
+            DwellStiction::start(&[1.0, 0.5, 1.0], 0, (0.0, 0.1, past))
         };
         let there = 1.0 - (-1.0_f64).exp();
         assert!((age(0.5, &[]) - there).abs() < 1e-12);

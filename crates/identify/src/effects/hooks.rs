@@ -64,14 +64,12 @@ pub struct Past<'a> {
     pub rested: f64,
     /// The last samples: how long each took [s], and how far it had come then since it last turned [m].
     pub lately: &'a [[f64; 2]],
-    /// The shortest deflection at which its contact slips [m].
-    pub grain: f64,
 }
 
 impl Past<'_> {
     /// Of what nothing is known: a rest as long as can be.
     pub fn unknown() -> Self {
-        Self { path: &[], rested: LONG, lately: &[], grain: 0.0 }
+        Self { path: &[], rested: LONG, lately: &[] }
     }
 }
 
@@ -245,8 +243,9 @@ pub trait Law {
         Act::none()
     }
 
-    /// Its state number `place` after long sliding in the direction `way`, or at rest if that is 0, with what was before.
-    fn start<D: Real>(_p: &[D], _place: usize, (_way, _past): (f64, Past<'_>)) -> D {
+    /// Its state number `place` after long sliding in the direction `way`, or at rest if that is 0, with what was before;
+    /// the contact slips at deflections of a `grain` [m] or more.
+    fn start<D: Real>(_p: &[D], _place: usize, (_way, _grain, _past): (f64, f64, Past<'_>)) -> D {
         D::from(0.0)
     }
 

@@ -43,7 +43,7 @@ impl Law for MaxwellSlip {
         Act::force(force)
     }
 
-    fn start<D: Real>(p: &[D], place: usize, (way, past): (f64, Past<'_>)) -> D {
+    fn start<D: Real>(p: &[D], place: usize, (way, _, past): (f64, f64, Past<'_>)) -> D {
         let path = past.path;
         if path.len() < 2 {
             return D::from(way);
@@ -86,7 +86,7 @@ mod tests {
         let p = [2.0, 1e-3, 0.5, 4e-3, super::NO_SPRING, 1.0, super::NO_SPRING, 1.0];
         // It went on by 10 mm and came back by 3: the first spring is pulled to its end, the second to 1 mm of 4.
         let past = Past { path: &[0.0, 0.01, 0.007], rested: 0.0, ..Past::unknown() };
-        let states = [0, 1].map(|place| MaxwellSlip::start(&p, place, (-1.0, past)));
+        let states = [0, 1].map(|place| MaxwellSlip::start(&p, place, (-1.0, 0.0, past)));
         assert!((states[0] + 1.0).abs() < 1e-12 && (states[1] - 0.25).abs() < 1e-12, "{states:?}");
     }
 }

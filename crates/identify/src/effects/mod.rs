@@ -98,10 +98,10 @@ macro_rules! effects {
                  }
             }
 
-            pub(crate) fn start<D: Real>(self, p: &[D], place: usize, (way, past): (f64, Past<'_>)) -> D {
+            pub(crate) fn start<D: Real>(self, p: &[D], place: usize, (way, grain, past): (f64, f64, Past<'_>)) -> D {
                 match self {
-                    $(Self::$law => $module::$law::start(p, place, (way, past)),)*
-                    $(Self::$hidden => $other::$hidden::start(p, place, (way, past)),)*
+                    $(Self::$law => $module::$law::start(p, place, (way, grain, past)),)*
+                    $(Self::$hidden => $other::$hidden::start(p, place, (way, grain, past)),)*
                  }
             }
 

@@ -117,7 +117,7 @@ impl Window {
 
     /// What was before it.
     pub fn past(&self) -> Past<'_> {
-        Past { path: &self.path, rested: self.rested, lately: &self.lately, grain: 0.0 }
+        Past { path: &self.path, rested: self.rested, lately: &self.lately }
     }
 
     /// How well a parabola fits the samples around sample `i`, in units of their noise [1].

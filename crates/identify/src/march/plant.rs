@@ -218,9 +218,9 @@ impl<D: Real> Model<D> {
 
     /// The states of the effects after long sliding in the direction `way`, or at rest if it is 0.
     pub fn effects_from(&self, way: f64, past: Past<'_>) -> Vec<D> {
-        let past = Past { grain: self.contact.grain(), ..past };
+        let grain = self.contact.grain();
         let of = |e: &'_ Term<D>| -> Vec<D> {
-            (0..e.kind.states()).map(|i| e.kind.start(&e.p, i, (way, past))).collect()
+            (0..e.kind.states()).map(|i| e.kind.start(&e.p, i, (way, grain, past))).collect()
         };
         self.effects.iter().flat_map(of).collect()
     }
