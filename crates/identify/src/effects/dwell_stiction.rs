@@ -50,8 +50,45 @@ impl Law for DwellStiction {
 
 #[cfg(test)]
 mod tests {
-    use super::{DwellStiction, Past};
-    use crate::effects::Law;
+    use super::{At, DwellStiction, Past};
+    use crate::{
+        effects::Law,
+        march::{Balance, Contact},
+    };
+
+    #[test]
+    fn what_slides_steadily_is_as_old_as_its_slip_leaves_it_at_the_level_that_its_age_raised() {
+        let contact =
+            Contact::LuGre { f_c: 4.0, f_s: 6.0, v_s: 0.01, sigma_0: 1e5, sigma_1: 300.0 };
+        let ([drop, tau, wear], v) = ([3.0, 0.5, 10.0], 2e-4_f64);
+        // (1 − a)/τ = a v/(wear · F_C/σ₀), and bristles that hold F_C + (F_S − F_C) exp(−(v/v_S)²) + drop · a.
+        let age = 1.0 / (1.0 + tau * v / (wear * 4e-5));
+        let level = 4.0 + 2.0 * (-(v / 0.01).powi(2)).exp() + drop * age;
+        let balance = Balance {
+            mass: 1.0,
+            gain: 1.0,
+            constant: 0.0,
+            stiffness: 0.0,
+            damping: 0.0,
+            gravity: 0.0,
+            cables: [[0.0; 2]; 2],
+        };
+        let at = At {
+            t: 0.0,
+            dt: 0.01,
+            drive: 0.0,
+            q: 0.0,
+            v,
+            radius: 1.0,
+            contact: (&contact, &[level / 1e5]),
+            balance: &balance,
+            mass: 1.0,
+        };
+        let mut z = [0.0];
+        let act = DwellStiction::act(&[drop, tau, wear], &at, &[age], &mut z);
+        assert!((z[0] - age).abs() < 1e-12, "{} for {age}", z[0]);
+        assert!(act.rise.is_some_and(|rise| (rise - drop * age).abs() < 1e-12));
+    }
 
     #[test]
     fn a_contact_is_as_old_as_it_has_rested() {
