@@ -1,5 +1,6 @@
 //! The friction force under an imposed motion: no equation of motion, the displacement does all.
 
+use super::displacement::{corners, velocity, way};
 use crate::{
     effects::{Act, At},
     march::{Contact, Model, Real, deflection},
@@ -73,100 +74,6 @@ pub(super) fn forces<D: Real>(
         }
         see(i, all + viscous(i));
     }
-}
-
-/// Samples that are this evenly spaced tell the velocity to fourth order [of the sampling time].
-const EVEN: f64 = 1e-3;
-
-/// A second difference so many times as large as those around it is a corner.
-const SHARP: f64 = 8.0;
-
-/// Second differences of a straight line are so much of its values, by rounding [1].
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
-
-/// Whether the displacement `u` has a corner at each sample: its second difference stands out from those two and three
-/// samples away. No smooth curve is led across it.
-pub fn corners(u: &[f64]) -> Vec<bool> {
-    let bend = |i: usize| match (i.checked_sub(1), u.get(i + 1)) {
-        (Some(before), Some(after)) => (after - 2.0 * u[i] + u[before]).abs(),
-        _ => 0.0,
-    };
-    let around = |i: usize| {
-        let far = [2, 3].into_iter().flat_map(|k| [i.checked_sub(k), Some(i + k)]);
-        far.flatten().map(bend).fold(0.0, f64::max)
-    };
-    let rounding = |i: usize| ROUNDING * (u[i].abs() + bend(i));
-    (0..u.len()).map(|i| bend(i) > SHARP * around(i) && bend(i) > rounding(i)).collect()
-}
-
-/// The velocity [m/s] at sample `i`: of the quartic through five samples, or of the parabola through three where they
-/// are too few, not evenly spaced, or a corner is among them; next to a corner, of the line on this side of it.
-fn velocity(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> f64 {
-    let (mut before, mut after) = (i.saturating_sub(1), (i + 1).min(u.len() - 1));
-    if corners[after] && !corners[before] && i > before {
-        after = i;
-    } else if corners[before] && !corners[after] && after > i {
-        before = i;
-    }
-    if before == after {
-        return 0.0;
-    }
-    let near = (u[after] - u[before]) / (time[after] - time[before]);
-    if i < 2 || i + 2 >= u.len() || after - before != 2 {
-        return near;
-    }
-    let (far, wide) = (time[i + 2] - time[i - 2], time[after] - time[before]);
-    if (far - 2.0 * wide).abs() > EVEN * wide || corners[i - 1..i + 2].contains(&true) {
-        return near;
-    }
-    (4.0 * near - (u[i + 2] - u[i - 2]) / far) / 3.0
-}
-
-/// The pieces of constant velocity from sample to sample.
-const PIECES: usize = 4;
-
-/// The displacement at a `share` of the way from sample `i − 1` to `i`, by the cubic through four samples; the way is
-/// straight at the ends of a record, next to a corner, and where nothing moves.
-fn between((u, corners): (&[f64], &[bool]), i: usize, share: f64) -> f64 {
-    let (a, b) = (u[i - 1], u[i]);
-    let straight = a + (b - a) * share;
-    if i < 2 || i + 1 >= u.len() || a == b || corners[i] || corners[i - 1] {
-        return straight;
-    }
-    let (before, after) = (u[i - 2], u[i + 1]);
-    // Newton's form: second differences on both sides.
-    let (left, right) = (before - 2.0 * a + b, a - 2.0 * b + after);
-    let bend = share * (share - 1.0) / 6.0;
-    straight + bend * ((2.0 - share) * left + (1.0 + share) * right)
-}
-
-/// The pieces of constant velocity on the way from sample `i − 1` to `i`: where each ends [m], and its velocity [m/s].
-fn way(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> Vec<(f64, f64)> {
-    let dt = time[i] - time[i - 1];
-    if let Some(turn) = turned(time, (u, corners), i) {
-        return turn.to_vec();
-    }
-    let mut last = u[i - 1];
-    let piece = |piece: usize| {
-        let share = piece as f64 / PIECES as f64;
-        let next = if piece == PIECES { u[i] } else { between((u, corners), i, share) };
-        let speed = (next - last) * PIECES as f64 / dt;
-        last = next;
-        (next, speed)
-    };
-    (1..=PIECES).map(piece).collect()
-}
-
-/// The same where the way has its corner: where the lines before and after it meet. The motion goes further than any
-/// sample shows, and a contact with it.
-fn turned(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> Option<[(f64, f64); 2]> {
-    if i < 2 || i + 1 >= u.len() || !(corners[i - 1] || corners[i]) {
-        return None;
-    }
-    let slope = |k: usize| (u[k] - u[k - 1]) / (time[k] - time[k - 1]);
-    let (before, after, dt) = (slope(i - 1), slope(i + 1), time[i] - time[i - 1]);
-    let at = (u[i] - u[i - 1] - after * dt) / (before - after);
-    (at > 0.0 && at < dt).then(|| [(u[i - 1] + before * at, before), (u[i], after)])
 }
 
 /// The force [N] that a contact holds at rest in the state in which it shows the `force` at the velocity `v` [m/s].
@@ -303,6 +210,26 @@ mod tests {
         for (t, f) in time.iter().zip(seen).skip(21) {
             let truth = (0.4 - 200.0 * 0.05 * (t - 0.1037)).max(-0.4);
             assert!((f - truth).abs() < 1e-12, "{f} N of {truth} N at {t} s");
+        }
+    }
+
+    #[test]
+    fn a_motion_that_comes_to_rest_does_not_swing_back() {
+        // With 0.02 m/s and a trembling of 3 µm, at rest from 0.1002 s on; no smooth curve is led into the rest.
+        let x = |t: f64, i: u32| 0.02 * t + if i.is_multiple_of(2) { 3e-6 } else { -3e-6 };
+        let time: Vec<f64> = (0..41).map(|i| 0.005 * f64::from(i)).collect();
+        let moving = |i: u32| x(0.005 * f64::from(i), i);
+        let u: Vec<f64> = (0..41).map(|i| if i < 21 { moving(i) } else { 0.02 * 0.1002 }).collect();
+        for friction in [
+            "name = \"coulomb\"\nf_c = 1.5\nsigma_2 = 10.0",
+            "name = \"maxwell-slip\"\nk = [3e5]\ndelta = [5e-6]\nsigma_2 = 0.0",
+        ] {
+            let mut seen = Vec::new();
+            forces(&model(friction), &time, &u, 0.0, &mut |_, f| seen.push(f));
+            // At the sample at which it comes to rest there are two velocities.
+            for (t, f) in time.iter().zip(seen).skip(22) {
+                assert!((f - 1.5).abs() < 1e-12, "{f} N of 1.5 N at {t} s");
+            }
         }
     }
 
