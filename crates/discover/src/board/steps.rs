@@ -14,6 +14,11 @@ const TOLERANCES: [f64; 7] = [LONGEST, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 pub(crate) const ROUGH: f64 = 0.6;
 pub(crate) const FINE: f64 = 0.2;
 
+/// At the floor, where what is left is below this, they may be off by so much of that: a fifth of the noise is a twenty-
+/// fifth of its square, many standard errors of what ten thousand samples say.
+const AT_FLOOR: f64 = 2.0;
+const LESS: f64 = 0.25;
+
 /// One block in so many is looked at for that.
 const LOOKED_AT: usize = 4;
 
@@ -56,7 +61,8 @@ impl Board<'_> {
         if self.imposed() {
             return Ok(());
         }
-        let share = share * self.trained_level(fitted).sqrt().max(1.0);
+        let level = self.trained_level(fitted);
+        let share = share * if level < AT_FLOOR { LESS } else { level.sqrt() };
         let rig = fitted.held();
         // Some of the windows are enough.
         let some = |k: usize| k.is_multiple_of(LOOKED_AT);
