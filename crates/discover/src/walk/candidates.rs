@@ -62,7 +62,7 @@ const RIVAL: f64 = 1.3;
 const NEARER: f64 = 0.02;
 
 /// What is begun once more is as good as a model with an effect more if it leaves no more than so many times as much.
-const AS_NEAR: f64 = 1.005;
+pub(super) const AS_NEAR: f64 = 1.005;
 
 /// Near the floor so few are worth a look.
 const FEW: usize = 2;

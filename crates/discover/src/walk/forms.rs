@@ -1,11 +1,11 @@
 //! The nearest effect in its other forms, where the one in which it was looked for does not do.
 
-use super::{ABOVE, FIRST, Walk};
-use crate::model::Candidate;
+use super::{ABOVE, FIRST, Walk, candidates::AS_NEAR};
+use crate::{board::Fitted, model::Candidate};
 use identify::{
     Rig,
-    effects::{Context, Kind},
-    fit::{binding, starts},
+    effects::{Context, Kind, LAWS},
+    fit::{FitError, binding, starts},
 };
 use rayon::prelude::*;
 
@@ -63,6 +63,37 @@ impl Walk<'_> {
         });
         let other = self.best_of(nearest, &rigs.collect::<Vec<Rig>>());
         other.into_iter().chain(wave.and_then(overtone)).chain(joint.and_then(gives)).collect()
+    }
+
+    /// The last model with one of its effects in another form, if it then leaves no more than what has an effect more,
+    /// `found`: what its own form misses is no second effect.
+    pub(super) fn reformed(&self, found: &Fitted) -> Result<Option<Fitted>, FitError> {
+        let here = &self.best;
+        let others = |kind: &Kind| -> Vec<Rig> {
+            let form = format!("{}.form", kind.about().name);
+            let Some(own) = here.rig.value(&form) else { return Vec::new() };
+            let set = |other: &f64| {
+                let mut rig = here.rig.clone();
+                binding::set(&mut rig, &form, *other);
+                rig
+            };
+            kind.forms().iter().filter(|other| own != **other).map(set).collect()
+        };
+        let found_here = |kind: &&Kind| {
+            let name = kind.about().name;
+            !self.given.effects.iter().any(|effect| effect.name == name)
+        };
+        let rigs: Vec<Rig> = LAWS.iter().filter(found_here).flat_map(others).collect();
+        let from = Some((here.x.as_slice(), here.pieces.as_slice()));
+        let fitted = rigs.par_iter().filter_map(|rig| self.board.fit(rig, from, &FIRST).ok());
+        let fitted: Vec<Fitted> = fitted.collect();
+        let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
+        let Some(nearest) = fitted.into_iter().min_by(|a, b| level(a).total_cmp(&level(b))) else {
+            return Ok(None);
+        };
+        let nearest = self.ended(nearest)?;
+        let as_good = level(&nearest) < AS_NEAR * level(found);
+        Ok(Some(nearest).filter(|_| as_good))
     }
 
     /// The nearest of a candidate's variants, refitted, if it lowers what the candidate leaves.
@@ -166,5 +197,22 @@ mod tests {
         assert!(alone > 1.5 && left < 1.2, "{alone} as Carreau's, {left} as Eyring's");
         assert_eq!(found.fitted.rig.value("sublinear_drag.form"), Some(2.0));
         assert!(walk.other_forms(std::slice::from_ref(found), &context).is_empty(), "it is down");
+    }
+
+    #[test]
+    fn what_its_own_form_misses_is_no_second_effect() {
+        let data = taken(|_, v| 0.5 * v.signum() + 30.0 * 0.05 * (v / 0.05).asinh());
+        let rig = identify::Rig::parse(DRY).unwrap();
+        let mut walk = walk(&rig, &data, &[]);
+        let mut carreau = with(&rig, Kind::SublinearDrag, &[30.0, 0.05, 0.9, 1.0]);
+        carreau.free.extend(["v_0", "bend"].map(|key| format!("sublinear_drag.{key}")));
+        walk.best = walk.board.fit(&carreau, None, &super::FIRST).unwrap();
+        let second = walk.best.clone();
+        let eyring = walk.reformed(&second).unwrap().expect("the other form");
+        assert_eq!(eyring.rig.value("sublinear_drag.form"), Some(2.0));
+        assert!(walk.judged(&eyring.blocks).level() < 1.2);
+        // A second effect that leaves less than the other form does stays.
+        walk.best = eyring.clone();
+        assert!(walk.reformed(&eyring).unwrap().is_none());
     }
 }

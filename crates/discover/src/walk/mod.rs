@@ -329,7 +329,9 @@ impl Walk<'_> {
         self.rank(&rated, (round, &now));
         let Some((best, found)) = found(&now, &rated, round) else { return Ok(None) };
         // What takes away the little that a play leaves may be what its own minimum besides the best leaves.
-        if let Some(anew) = self.joint_anew(&now, &best.fitted, context)? {
+        let anew = self.joint_anew(&now, &best.fitted, context)?;
+        let anew = if anew.is_some() { anew } else { self.reformed(&best.fitted)? };
+        if let Some(anew) = anew {
             self.best = anew;
             return self.step(context, options, (round, None));
         }
