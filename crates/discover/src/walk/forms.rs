@@ -19,6 +19,9 @@ const WAYS: [f64; 3] = [3e-4, 1e-3, 1e-2];
 /// A wave that leaves no more than so many times what the nearest does is tried with its overtone.
 const BEHIND: f64 = 10.0;
 
+/// So are the nearest of so many kinds of effect in their other forms.
+const KINDS: usize = 3;
+
 /// So is a load whose friction builds up on a way.
 const NOT_FAR: f64 = 1.5;
 
@@ -26,15 +29,12 @@ const NOT_FAR: f64 = 1.5;
 const LOWER: f64 = 0.8;
 
 impl Walk<'_> {
-    /// The nearest candidate in the best of its other forms, one with a load whose friction builds up on a way, and the
+    /// The leading candidates in the best of their other forms, one with a load whose friction builds up on a way, and the
     /// nearest wave with its overtone, each if it comes much nearer so.
     pub(super) fn other_forms(&self, all: &[Candidate], context: &Context) -> Vec<Candidate> {
         let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
         let plausible = all.iter().filter(|c| self.fits(c, context));
-        let Some(nearest) = plausible.min_by(|a, b| level(a).total_cmp(&level(b))) else {
-            return Vec::new();
-        };
-        let least = level(nearest);
+        let Some(least) = plausible.map(level).min_by(f64::total_cmp) else { return Vec::new() };
         let waves = all.iter().filter(|c| c.kind == Kind::Cogging);
         let wave = waves.min_by(|a, b| level(a).total_cmp(&level(b)));
         let wave = wave.filter(|wave| level(wave) < BEHIND * least);
@@ -52,38 +52,41 @@ impl Walk<'_> {
         let joints = all.iter().filter(|c| !c.kind.tried().is_empty());
         let joint = joints.min_by(|a, b| level(a).total_cmp(&level(b)));
         let joint = joint.filter(|joint| level(joint) < NOT_FAR * least);
-        let form = format!("{}.form", nearest.kind.about().name);
-        let own = nearest.fitted.rig.value(&form);
-        let others =
-            nearest.kind.forms().iter().filter(|other| own.is_some_and(|own| own != **other));
-        let rigs = others.map(|other| {
-            let mut rig = nearest.fitted.rig.clone();
-            binding::set(&mut rig, &form, *other);
-            rig
-        });
-        let other = self.best_of(nearest, &rigs.collect::<Vec<Rig>>());
-        other.into_iter().chain(wave.and_then(overtone)).chain(joint.and_then(gives)).collect()
+        let leading = self.leading(all, context);
+        let other =
+            leading.into_iter().filter_map(|c| self.best_of(c, &forms(c.kind, &c.fitted.rig)));
+        other.chain(wave.and_then(overtone)).chain(joint.and_then(gives)).collect()
+    }
+
+    /// The nearest of each kind that is not far behind the nearest of all; none where that is down at the floor. What is
+    /// in another form than its own may be nearer in a wrong kind.
+    fn leading<'c>(&self, all: &'c [Candidate], context: &Context) -> Vec<&'c Candidate> {
+        let plausible = all.iter().filter(|c| self.fits(c, context));
+        let mut near: Vec<(f64, &Candidate)> =
+            plausible.map(|c| (self.judged(&c.fitted.blocks).level(), c)).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let least = near.first().map_or(0.0, |(level, _)| *level);
+        let most = if least < ABOVE { least } else { BEHIND * least };
+        let mut leading: Vec<&Candidate> = Vec::new();
+        for (level, candidate) in near {
+            let new = !leading.iter().any(|own| own.kind == candidate.kind);
+            if level < most && new && leading.len() < KINDS {
+                leading.push(candidate);
+            }
+        }
+        leading
     }
 
     /// The last model with one of its effects in another form, if it then leaves no more than what has an effect more,
     /// `found`: what its own form misses is no second effect.
     pub(super) fn reformed(&self, found: &Fitted) -> Result<Option<Fitted>, FitError> {
         let here = &self.best;
-        let others = |kind: &Kind| -> Vec<Rig> {
-            let form = format!("{}.form", kind.about().name);
-            let Some(own) = here.rig.value(&form) else { return Vec::new() };
-            let set = |other: &f64| {
-                let mut rig = here.rig.clone();
-                binding::set(&mut rig, &form, *other);
-                rig
-            };
-            kind.forms().iter().filter(|other| own != **other).map(set).collect()
-        };
         let found_here = |kind: &&Kind| {
             let name = kind.about().name;
             !self.given.effects.iter().any(|effect| effect.name == name)
         };
-        let rigs: Vec<Rig> = LAWS.iter().filter(found_here).flat_map(others).collect();
+        let others = LAWS.iter().filter(found_here).flat_map(|kind| forms(*kind, &here.rig));
+        let rigs: Vec<Rig> = others.collect();
         let from = Some((here.x.as_slice(), here.pieces.as_slice()));
         let fitted = rigs.par_iter().filter_map(|rig| self.board.fit(rig, from, &FIRST).ok());
         let fitted: Vec<Fitted> = fitted.collect();
@@ -112,6 +115,18 @@ impl Walk<'_> {
         let best = found.into_iter().min_by(|a, b| level(a).total_cmp(&level(b)))?;
         (level(&best) < LOWER * left).then_some(best)
     }
+}
+
+/// `rig` with an effect of this kind in each of the other forms that it may take; none without the effect.
+fn forms(kind: Kind, rig: &Rig) -> Vec<Rig> {
+    let form = format!("{}.form", kind.about().name);
+    let Some(own) = rig.value(&form) else { return Vec::new() };
+    let set = |other: &f64| {
+        let mut with = rig.clone();
+        binding::set(&mut with, &form, *other);
+        with
+    };
+    kind.forms().iter().filter(|other| own != **other).map(set).collect()
 }
 
 /// `rig` with these values of what is not asked for as a rule, free.
@@ -214,5 +229,30 @@ mod tests {
         // A second effect that leaves less than the other form does stays.
         walk.best = eyring.clone();
         assert!(walk.reformed(&eyring).unwrap().is_none());
+    }
+
+    #[test]
+    fn the_nearest_of_each_kind_leads_and_what_is_far_behind_does_not() {
+        let data = crate::walk::made::data();
+        let walk = walk(&rig(2.0), &data, &[]);
+        let context = context(&walk);
+        let candidate = |kind, values: &[f64]| {
+            let fitted = walk.board.judged(&with(&rig(2.0), kind, values), None).unwrap();
+            Candidate { kind, fitted }
+        };
+        let all = [
+            candidate(Kind::CurrentBias, &[0.1]),
+            candidate(Kind::QuadraticDrag, &[1e-3]),
+            candidate(Kind::CurrentBias, &[0.2]),
+            candidate(Kind::CubicSpring, &[30.0]),
+        ];
+        let level = |c: &Candidate| walk.judged(&c.fitted.blocks).level();
+        assert!(level(&all[3]) > super::BEHIND * level(&all[2]), "{}", level(&all[3]));
+        let leading = walk.leading(&all, &context);
+        let is = |c: &&Candidate, own: usize| std::ptr::eq(*c, &raw const all[own]);
+        assert!(leading.len() == 2 && is(&leading[0], 2) && is(&leading[1], 1));
+        // At the floor no other form is asked for.
+        let all = [candidate(Kind::CurrentBias, &[crate::walk::made::BIAS])];
+        assert!(level(&all[0]) < super::ABOVE && walk.leading(&all, &context).is_empty());
     }
 }
