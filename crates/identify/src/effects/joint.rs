@@ -115,10 +115,16 @@ impl<D: Real> Joint<D> {
     fn touching(&self, at: &At<D>, free: &Free<D>, side: D) -> (D, D) {
         let dt = free.dt;
         let gap = at.q - side - free.x;
-        let drives = self.stiffness * gap + self.damping * at.v;
-        let heavy = free.heavy + (self.stiffness * dt + self.damping) * dt;
+        let (mut stiffness, mut damping) = (self.stiffness, self.damping);
+        // Teeth that meet in this stage damp for the part of it in which they touch, which is how deep they are at its end
+        // over how fast they came: so no force jumps, and the derivatives know that the time of the impact moves.
+        if self.half.is_some() && dt > 0.0 && (gap.re() - at.v.re() * dt) * side.re() < 0.0 {
+            (stiffness, damping) = (stiffness + damping / dt, D::from(0.0));
+        }
+        let drives = stiffness * gap + damping * at.v;
+        let heavy = free.heavy + (stiffness * dt + damping) * dt;
         let speed = self.slowed(free, free.heavy * free.w + (drives - free.pull) * dt, heavy);
-        (drives - (self.stiffness * dt + self.damping) * speed, speed)
+        (drives - (stiffness * dt + damping) * speed, speed)
     }
 
     /// The load's friction with which a stage ends at this `speed`, of its largest [1].
