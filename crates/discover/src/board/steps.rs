@@ -19,6 +19,11 @@ pub(crate) const FINE: f64 = 0.2;
 const AT_FLOOR: f64 = 2.0;
 const LESS: f64 = 0.25;
 
+/// By how much of the noise a sample may be off for a `share` of what a model leaves, so many floors [1].
+fn allowed(share: f64, level: f64) -> f64 {
+    share * if level < AT_FLOOR { LESS } else { level.sqrt() }
+}
+
 /// One block in so many is looked at for that.
 const LOOKED_AT: usize = 4;
 
@@ -61,8 +66,7 @@ impl Board<'_> {
         if self.imposed() {
             return Ok(());
         }
-        let level = self.trained_level(fitted);
-        let share = share * if level < AT_FLOOR { LESS } else { level.sqrt() };
+        let share = allowed(share, self.trained_level(fitted));
         let rig = fitted.held();
         // Some of the windows are enough.
         let some = |k: usize| k.is_multiple_of(LOOKED_AT);
@@ -118,7 +122,7 @@ impl Board<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{FINE, Piece, apart};
+    use super::{FINE, Piece, allowed, apart};
     use identify::{fit::window::START, march::Motion};
 
     /// So many windows of a hundred residuals each, three of them off in the first few windows.
@@ -140,5 +144,16 @@ mod tests {
         assert!(apart(&still, &windows(22)) > FINE);
         assert_eq!(apart(&still, &windows(5)), 0.0, "what went another way says nothing");
         assert_eq!(apart(&[], &[]), 0.0);
+    }
+
+    #[test]
+    fn what_steps_leave_at_the_floor_is_no_effect() {
+        // In squared standard errors of a record of twelve thousand samples: six of them are worth no name.
+        let left = 12_000.0 * allowed(FINE, 1.0).powi(2);
+        assert!(left < 36.0, "{left}");
+        assert!(
+            (allowed(FINE, 9.0) - 3.0 * FINE).abs() < 1e-12,
+            "far off it is a share of what is left"
+        );
     }
 }
