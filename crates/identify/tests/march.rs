@@ -15,13 +15,10 @@ fn times(samples: u32, rate: f64) -> Vec<f64> {
 
 fn driven(plant: &Plant, contact: Contact<f64>, sigma_2: f64) -> Model<f64> {
     let balance = Balance {
-        mass: plant.mass,
         gain: plant.gain,
         constant: plant.offset,
         stiffness: plant.stiffness,
-        damping: 0.0,
-        gravity: 0.0,
-        cables: [[0.0; 2]; 2],
+        ..Balance::alone(plant.mass)
     };
     Model { balance, contact, sigma_2, offset: 0.0, radius: 1.0, effects: Vec::new() }
 }

@@ -9,15 +9,7 @@ use simulation::{DrivenPlant, anchors::anchors, plant_reference::solve_located};
 
 /// A mass of 1 kg with nothing else.
 fn mass(contact: Contact<f64>) -> Model<f64> {
-    let balance = Balance {
-        mass: 1.0,
-        gain: 1.0,
-        constant: 0.0,
-        stiffness: 0.0,
-        damping: 0.0,
-        gravity: 0.0,
-        cables: [[0.0; 2]; 2],
-    };
+    let balance = Balance::alone(1.0);
     Model { balance, contact, sigma_2: 0.0, offset: 0.0, radius: 1.0, effects: Vec::new() }
 }
 

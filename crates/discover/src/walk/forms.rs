@@ -66,11 +66,13 @@ impl Walk<'_> {
             plausible.map(|c| (self.judged(&c.fitted.blocks).level(), c)).collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         let least = near.first().map_or(0.0, |(level, _)| *level);
-        let most = if least < ABOVE { least } else { BEHIND * least };
         let mut leading: Vec<&Candidate> = Vec::new();
+        if least < ABOVE {
+            return leading;
+        }
         for (level, candidate) in near {
             let new = !leading.iter().any(|own| own.kind == candidate.kind);
-            if level < most && new && leading.len() < KINDS {
+            if level < BEHIND * least && new && leading.len() < KINDS {
                 leading.push(candidate);
             }
         }

@@ -64,15 +64,7 @@ mod tests {
         // (1 − a)/τ = a v/(wear · F_C/σ₀), and bristles that hold F_C + (F_S − F_C) exp(−(v/v_S)²) + drop · a.
         let age = 1.0 / (1.0 + tau * v / (wear * 4e-5));
         let level = 4.0 + 2.0 * (-(v / 0.01).powi(2)).exp() + drop * age;
-        let balance = Balance {
-            mass: 1.0,
-            gain: 1.0,
-            constant: 0.0,
-            stiffness: 0.0,
-            damping: 0.0,
-            gravity: 0.0,
-            cables: [[0.0; 2]; 2],
-        };
+        let balance = Balance::alone(1.0);
         let at = At {
             t: 0.0,
             dt: 0.01,

@@ -28,15 +28,7 @@ pub fn model<D: Real>(rig: &Rig, free: &dyn Fn(&str) -> Option<D>) -> Model<D> {
         free(key).unwrap_or_else(|| D::from(given))
     };
     let zero = D::from(0.0);
-    let nothing = Balance {
-        mass: zero,
-        gain: zero,
-        constant: zero,
-        stiffness: zero,
-        damping: zero,
-        gravity: zero,
-        cables: [[zero; 2]; 2],
-    };
+    let nothing = Balance { gain: zero, ..Balance::alone(zero) };
     let balance = match rig.kind {
         "drum" => {
             let r = plant("radius");

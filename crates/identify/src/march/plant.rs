@@ -23,6 +23,22 @@ pub struct Balance<D> {
     pub cables: [[D; 2]; 2],
 }
 
+impl<D: Real> Balance<D> {
+    /// A `mass` [kg] that its input drives with so many newtons, and nothing else.
+    pub fn alone(mass: D) -> Self {
+        let none = D::from(0.0);
+        Self {
+            mass,
+            gain: D::from(1.0),
+            constant: none,
+            stiffness: none,
+            damping: none,
+            gravity: none,
+            cables: [[none; 2]; 2],
+        }
+    }
+}
+
 /// A plant and its friction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model<D> {
