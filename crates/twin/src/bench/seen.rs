@@ -2,16 +2,22 @@
 
 use super::{Case, Hides, draw, nominal, visible};
 use crate::{Scenario, TwinError};
+use nalgebra::{DMatrix, DVector};
 
 /// By how much a free parameter is moved to see what it can take up.
 const STEP: f64 = 0.01;
 /// What is left of a direction of which less than this is its own is the others' [1].
 const OWN: f64 = 1e-6;
+/// The refit goes on for as long as it leaves less than this share of what it left before, and so often at most.
+const LESS: f64 = 0.98;
+const REFITS: usize = 30;
+/// Parts of a step that are tried in turn.
+const PARTS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
 impl Case {
     /// For each hidden effect, or for the wrong parameter, how well it can be seen beside everything else that the
     /// record holds: the norm of its change over all samples of all channels, each in units of its sensor's noise,
-    /// less what the rig's free parameters could take up, to first order [σ].
+    /// that is left when the rig's free parameters are refitted to take up as much of it as they can [σ].
     ///
     /// As in [`super::Visible::local`], a straight line is taken off every second of every change, unless the effect
     /// is something steady. Noise of the recorded drive is not counted against it. Nothing hidden gives no number.
@@ -20,100 +26,116 @@ impl Case {
     /// A motion that cannot be followed.
     pub fn seen(&self) -> Result<Vec<f64>, TwinError> {
         let without = Scenario { hidden: Vec::new(), ..self.scenario.clone() };
-        let one = |steady: bool, other: &Scenario, wrong: Option<&str>| {
-            let change = self.change(&self.scenario, other, steady)?;
-            let free = self.directions(&without, steady, wrong)?;
-            Ok(left(change, free))
-        };
         match (&self.recipe.hides, &self.key.parameter) {
             (Hides::Effects(_), _) => (0..self.scenario.hidden.len())
                 .map(|i| {
                     let mut other = self.scenario.clone();
                     let effect = other.hidden.remove(i);
-                    one(draw::steady(effect.name(), &without), &other, None)
+                    self.refitted(&other, draw::steady(effect.name(), &without), None)
                 })
                 .collect(),
             (Hides::Parameter, Some(wrong)) => {
                 let mut off = without.clone();
                 nominal::scale(&mut off, &wrong.name, wrong.nominal / wrong.truth);
                 // A preload or a spring's stiffness shows in a line.
-                Ok(vec![one(true, &off, Some(&wrong.name))?])
+                Ok(vec![self.refitted(&off, true, Some(&wrong.name))?])
             }
             _ => Ok(Vec::new()),
         }
     }
 
-    /// What each free parameter changes, but for the one that is asked about.
+    /// What `other` leaves of the record [σ] when its free parameters but one, `wrong`, are refitted by Gauss and
+    /// Newton's method: where a mass sticks and slides, what a first step leaves is mostly what is not linear in them.
+    fn refitted(
+        &self,
+        other: &Scenario,
+        steady: bool,
+        wrong: Option<&str>,
+    ) -> Result<f64, TwinError> {
+        let mut free = nominal::free(self.recipe.family, other);
+        free.retain(|name| Some(name.as_str()) != wrong);
+        let mut at = other.clone();
+        let mut change = self.change(&self.scenario, &at, steady)?;
+        let mut least = change.norm();
+        for _ in 0..REFITS {
+            let (rest, steps) = left(&change, &self.directions(&at, &free, steady)?);
+            // What cannot be reached is not linear either: what the nearest point known promises is what counts.
+            least = rest.min(change.norm());
+            let moved = |part: f64| {
+                let mut moved = at.clone();
+                for (name, step) in free.iter().zip(steps.iter()) {
+                    nominal::scale(&mut moved, name, (1.0 + part * STEP * step).max(STEP));
+                }
+                let then = self.change(&self.scenario, &moved, steady).ok()?;
+                (then.norm() < LESS * change.norm()).then_some((moved, then))
+            };
+            let Some(nearer) = PARTS.into_iter().find_map(moved) else { break };
+            (at, change) = nearer;
+        }
+        Ok(least.min(change.norm()))
+    }
+
+    /// What each free parameter changes, a column each.
     fn directions(
         &self,
-        without: &Scenario,
+        at: &Scenario,
+        free: &[String],
         steady: bool,
-        but: Option<&str>,
-    ) -> Result<Vec<Vec<f64>>, TwinError> {
-        let free = nominal::free(self.recipe.family, without);
+    ) -> Result<Vec<DVector<f64>>, TwinError> {
         free.iter()
-            .filter(|name| Some(name.as_str()) != but)
             .map(|name| {
-                let mut moved = without.clone();
+                let mut moved = at.clone();
                 nominal::scale(&mut moved, name, 1.0 + STEP);
-                self.change(&moved, without, steady)
+                self.change(&moved, at, steady)
             })
             .collect()
     }
 
-    fn change(&self, a: &Scenario, b: &Scenario, steady: bool) -> Result<Vec<f64>, TwinError> {
+    fn change(&self, a: &Scenario, b: &Scenario, steady: bool) -> Result<DVector<f64>, TwinError> {
         let changes = visible::changes(a, b, self.seed)?;
         let whole = |(_, noise, change): (_, f64, Vec<f64>)| {
             let change = if steady { change } else { visible::straightened(&change, super::RATE) };
             change.into_iter().map(move |v| v / noise)
         };
-        Ok(changes.into_iter().flat_map(whole).collect())
+        let all: Vec<f64> = changes.into_iter().flat_map(whole).collect();
+        Ok(DVector::from_vec(all))
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// The norm of what of `change` is in none of the directions.
-fn left(mut change: Vec<f64>, directions: Vec<Vec<f64>>) -> f64 {
-    let mut base: Vec<Vec<f64>> = Vec::new();
-    for mut direction in directions {
-        let whole = dot(&direction, &direction).sqrt();
-        // Twice is enough for round-off.
-        take_off(&mut direction, &base);
-        take_off(&mut direction, &base);
-        let own = dot(&direction, &direction).sqrt();
-        if own > OWN * whole {
-            for v in &mut direction {
-                *v /= own;
-            }
-            base.push(direction);
-        }
+/// The norm of what of `change` is in none of the directions, and how much of each takes up the rest.
+fn left(change: &DVector<f64>, directions: &[DVector<f64>]) -> (f64, Vec<f64>) {
+    let sizes: Vec<f64> = directions.iter().map(|d| d.norm().max(f64::MIN_POSITIVE)).collect();
+    let columns: Vec<DVector<f64>> =
+        directions.iter().zip(&sizes).map(|(direction, size)| direction / *size).collect();
+    if columns.is_empty() {
+        return (change.norm(), Vec::new());
     }
-    take_off(&mut change, &base);
-    dot(&change, &change).sqrt()
-}
-
-fn take_off(change: &mut [f64], base: &[Vec<f64>]) {
-    for direction in base {
-        let part = dot(change, direction);
-        for (v, d) in change.iter_mut().zip(direction) {
-            *v -= part * d;
-        }
-    }
+    let base = DMatrix::from_columns(&columns);
+    let Ok(taken) = base.clone().svd(true, true).solve(change, OWN) else {
+        return (change.norm(), vec![0.0; sizes.len()]);
+    };
+    let rest = (change - base * &taken).norm();
+    (rest, taken.iter().zip(&sizes).map(|(much, size)| much / size).collect())
 }
 
 #[cfg(test)]
 mod tests {
     use super::left;
+    use nalgebra::DVector;
+
+    fn vector(values: &[f64]) -> DVector<f64> {
+        DVector::from_column_slice(values)
+    }
 
     #[test]
     fn what_two_oblique_directions_span_is_taken_off_and_the_rest_stays() {
-        let directions = vec![vec![1.0, 0.0, 0.0], vec![5.0, 1.0, 0.0], vec![-3.0, 2.0, 0.0]];
-        let rest = left(vec![7.0, -4.0, 3.0], directions);
+        let directions = [[1.0, 0.0, 0.0], [5.0, 1.0, 0.0], [-3.0, 2.0, 0.0]].map(|d| vector(&d));
+        let (rest, _) = left(&vector(&[7.0, -4.0, 3.0]), &directions);
         assert!((rest - 3.0).abs() < 1e-12, "{rest} σ of 3 σ are left");
-        let whole = left(vec![3.0, 4.0], vec![]);
+        let (rest, steps) = left(&vector(&[7.0, -4.0, 3.0]), &directions[..2]);
+        assert!((rest - 3.0).abs() < 1e-12 && (steps[1] + 4.0).abs() < 1e-12, "{steps:?}");
+        assert!((steps[0] - 27.0).abs() < 1e-12, "{steps:?}");
+        let (whole, _) = left(&vector(&[3.0, 4.0]), &[]);
         assert!((whole - 5.0).abs() < 1e-12, "{whole} σ of 5 σ are left");
     }
 }
