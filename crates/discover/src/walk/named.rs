@@ -73,11 +73,7 @@ pub(super) fn found<'r>(
     // What noise leaves is known to a tenth or so: what lies below is no excess.
     let floor = plausible.clone().next()?.judged.level().min(1.0);
     let share = |other: &Judged| shrink(now.level() / floor, other.level() / floor);
-    let first = plausible.clone().next().map_or(0.0, |r| share(&r.judged));
-    let best = plausible.find(|r| {
-        let gone = share(&r.judged);
-        gone > CLOSE * first && sure(now, &r.judged, (gone, round))
-    })?;
+    let best = plausible.find(|r| sure(now, &r.judged, (share(&r.judged), round)))?;
     let gone = share(&best.judged);
     let as_much = |r: &Rated| {
         let near = r.judged.level() < NEAR * best.judged.level();
@@ -110,6 +106,12 @@ pub(super) fn found<'r>(
 pub(super) fn numbers(kind: Kind) -> usize {
     let fitted = |key: &&Key| matches!(key.shape, Shape::Amount | Shape::Fitted);
     kind.about().keys.iter().filter(fitted).count()
+}
+
+/// Whether an effect beside so many others is surely there, by what is left without and with it.
+pub(super) fn shows(without: &Judged, with: &Judged, others: usize) -> bool {
+    let floor = with.level().min(1.0);
+    sure(without, with, (shrink(without.level() / floor, with.level() / floor), others))
 }
 
 /// Whether what takes away the share `gone` of the excess is surely there.
@@ -272,6 +274,29 @@ mod tests {
         assert_eq!(best.kind, LAWS[1]);
         all[1].plausible = false;
         assert!(found(&now, &all, 0).is_none());
+    }
+
+    #[test]
+    fn what_is_nearer_by_chance_bars_nothing() {
+        let now = judged(0.86, 0.01);
+        // Nearer on the whole, and worse in every other block.
+        let all = [rated(0, judged(0.8, 0.2)), rated(1, judged(0.83, 0.008))];
+        assert!(found(&now, &all[..1], 0).is_none());
+        let (best, _) = found(&now, &all, 0).expect("the second");
+        assert_eq!(best.kind, LAWS[1]);
+    }
+
+    #[test]
+    fn what_is_found_is_kept() {
+        // All of what is gained is in six blocks, in which it is 150 squared standard errors each.
+        let with = |most: f64| {
+            let blocks = (0..20).map(|k| if k < 6 { most } else { 1.0 + 0.001 * f64::from(k) });
+            Judged { blocks: blocks.collect(), counts: vec![300.0; 20] }
+        };
+        let (without, with) = (with(1.5), with(1.0));
+        assert!(without.against(&with) < super::SURE);
+        assert!(found(&without, &[rated(0, with.clone())], 0).is_some());
+        assert!(super::shows(&without, &with, 0) && !super::shows(&without, &with, 1));
     }
 
     #[test]

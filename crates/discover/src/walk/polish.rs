@@ -2,7 +2,7 @@
 
 use super::{
     ABOVE, DOWN, GROSS, REFIT, Walk, astray,
-    named::{MOST, NOTHING, Rated, SURE},
+    named::{MOST, NOTHING, Rated, SURE, shows},
 };
 use crate::{
     board::{Board, FINE, Fitted},
@@ -240,7 +240,9 @@ impl<'a> Walk<'a> {
             let needless = |without: &Fitted| {
                 let there = self.judged(&without.blocks);
                 let near = there.against(&now) < SURE && there.level() < AS_GOOD * now.level();
-                near && self.board.strayed(without).is_empty()
+                // What is taken for what it gains in many blocks is kept for it.
+                let gains = shows(&there, &now, effects.len() - 1);
+                near && !gains && self.board.strayed(without).is_empty()
             };
             // What comes near at once may come all the way.
             if !needless(&without) && self.judged(&without.blocks).level() < CLOSE_TO * now.level()
