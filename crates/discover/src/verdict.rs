@@ -154,6 +154,9 @@ pub struct MapOf {
     pub force: Vec<f64>,
     /// How much of the excess it takes away [1].
     pub shrink: f64,
+    /// By how much it lowers the sum of squares that it is fitted to, in units of the floor [1]; by chance as much as it
+    /// has places.
+    pub gain: f64,
 }
 
 /// The whole answer.

@@ -194,7 +194,7 @@ pub(super) fn sounds(frequency: f64) -> String {
 pub(super) fn acts(told: &Told, map: &MapOf) -> String {
     let most = map.at.iter().zip(&map.force).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let Some((at, force)) = most.filter(|_| map.shrink > 0.0) else {
-        return "no place of the motion, the drive or the record stands out".to_owned();
+        return faint(map);
     };
     format!(
         "what is left acts over {}, most at {} {} with {} {}; a map takes away {} % of it",
@@ -204,6 +204,19 @@ pub(super) fn acts(told: &Told, map: &MapOf) -> String {
         four_digits(*force),
         axis_unit(told, "drive"),
         four_digits(100.0 * map.shrink)
+    )
+}
+
+/// What is said of a map that takes away nothing of the excess.
+fn faint(map: &MapOf) -> String {
+    let chance = map.at.len();
+    if map.gain < 2.0 * chance as f64 {
+        return "no place of the motion, the drive or the record stands out".to_owned();
+    }
+    format!(
+        "what is left goes with {}, most of all: a map lowers χ² there by {} in all, by chance by {chance}",
+        map.axis,
+        four_digits(map.gain)
     )
 }
 
