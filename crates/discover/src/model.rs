@@ -141,6 +141,9 @@ const AT_ONCE: f64 = 0.08;
 /// Of what does not begin smoothly so much less than is tried is none.
 const TOO_LITTLE: f64 = 0.1;
 
+/// What is less than this share of the mass is no load behind a joint.
+const LIGHTEST: f64 = 0.01;
+
 /// A force that repeats along the way does so on the record's.
 const REPEATS: f64 = 0.75;
 
@@ -180,6 +183,7 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
             (_, Measure::Speed, _) if kind == Kind::SublinearDrag && bare => {
                 value.abs() >= AT_ONCE * context.speed
             }
+            (Shape::Fitted, Measure::One, _) if key.name == "ratio" => value >= LIGHTEST,
             (_, Measure::Speed, _) => value.abs() >= SLOWEST * context.speed,
             _ => true,
         };
@@ -280,6 +284,19 @@ mod tests {
         };
         // Of 1 m/s.
         assert!(of(0.01) && of(1e-3) && !of(1e-4));
+    }
+
+    #[test]
+    fn what_weighs_nothing_is_no_load() {
+        let of = |ratio: f64| {
+            let effect = format!(
+                "name = \"compliance\"\ncompliance = 0.01\nratio = {ratio:?}\ndamping = 0.5\nrubs = 1e-3\n"
+            );
+            let rig = RIG.replace("name = \"position_friction\"\n", &effect);
+            let rig = Rig::parse(&rig).unwrap();
+            plausible(&rig, Kind::Compliance, &CONTEXT, &[&rig])
+        };
+        assert!(of(0.02) && !of(0.004));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::{
     Run, Told,
     answer::identified,
     picture,
-    shown::{acts, axis_unit, between, counted, physics, sounds, telling},
+    shown::{acts, axis_unit, between, counted, physics, sounds, telling, with_error},
     verdict,
 };
 use crate::{
@@ -56,7 +56,7 @@ fn found(told: &Told) -> FitPart {
             vec![
                 effect.name.to_owned(),
                 named(&v.name, v.unit),
-                format!("{} ± {}", sure(v.value, v.standard_error), four_digits(v.standard_error)),
+                with_error(v.value, v.standard_error),
                 format!("{} %", four_digits(100.0 * effect.shrink)),
             ]
         })

@@ -127,22 +127,27 @@ fn places(told: &Told) -> String {
     format!("of the excess: {}", shares.join(", "))
 }
 
+/// A standard error so many times the value says that any value does as well.
+const UNTOLD: f64 = 100.0;
+
 /// What an effect is, in a line.
 pub(super) fn physics(name: &str) -> &'static str {
     Kind::named(name).map_or("", |kind| kind.about().physics)
+}
+
+/// A value with its standard error, if the record tells it at all.
+pub(super) fn with_error(value: f64, error: f64) -> String {
+    if value != 0.0 && error > UNTOLD * value.abs() {
+        return format!("{}, not told by this record", four_digits(value));
+    }
+    format!("{} ± {}", sure(value, error), four_digits(error))
 }
 
 /// A named effect: its values, what it takes away, what would tell it from others.
 fn effect(effect: &Found) -> Vec<String> {
     let mut lines = vec![format!("  {}: {}", effect.name, physics(effect.name))];
     for v in &effect.values {
-        lines.push(format!(
-            "  {:16} {} ± {} {}",
-            v.name,
-            sure(v.value, v.standard_error),
-            four_digits(v.standard_error),
-            v.unit
-        ));
+        lines.push(format!("  {:16} {} {}", v.name, with_error(v.value, v.standard_error), v.unit));
     }
     lines.push(format!(
         "  takes away {} % of the excess on blocks not fitted, t = {}",
@@ -264,4 +269,15 @@ fn limits(told: &Told) -> Vec<String> {
         lines.push(format!("  and {} more: --json has them", all.len() - LIMITS));
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_error;
+
+    #[test]
+    fn what_a_record_does_not_tell_has_no_error() {
+        assert_eq!(with_error(1.013, 1.4e158), "1.013, not told by this record");
+        assert_eq!(with_error(-36.9612, 0.142), "-36.96 ± 0.142");
+    }
 }
