@@ -55,27 +55,31 @@ impl Case {
         let mut free = nominal::free(self.recipe.family, other);
         free.retain(|name| Some(name.as_str()) != wrong);
         let mut at = other.clone();
-        let mut change = self.change(&self.scenario, &at, steady)?;
-        let mut least = change.norm();
+        // A refit takes what is steady as it is: preloads that are said by nothing else are said by that.
+        let mut change = self.change(&self.scenario, &at, true)?;
         for _ in 0..REFITS {
-            let (rest, steps) = left(&change, &self.directions(&at, &free, steady)?);
-            // What cannot be reached is not linear either: what the nearest point known promises is what counts.
-            least = rest.min(change.norm());
+            let (_, steps) = left(&change, &self.directions(&at, &free, true)?);
             let moved = |part: f64| {
                 let mut moved = at.clone();
                 for (name, step) in free.iter().zip(steps.iter()) {
                     nominal::scale(&mut moved, name, (1.0 + part * STEP * step).max(STEP));
                 }
-                let then = self.change(&self.scenario, &moved, steady).ok()?;
+                let then = self.change(&self.scenario, &moved, true).ok()?;
                 (then.norm() < LESS * change.norm()).then_some((moved, then))
             };
             let Some(nearer) = PARTS.into_iter().find_map(moved) else { break };
             (at, change) = nearer;
         }
-        Ok(least.min(change.norm()))
+        // What cannot be reached is not linear either: what the nearest point known promises counts, and no more than
+        // what the first one does.
+        let promised = |at: &Scenario| {
+            let change = self.change(&self.scenario, at, steady)?;
+            Ok(left(&change, &self.directions(at, &free, steady)?).0)
+        };
+        Ok(promised(&at)?.min(promised(other)?))
     }
 
-    /// What each free parameter changes, a column each.
+    /// What each free parameter changes.
     fn directions(
         &self,
         at: &Scenario,
