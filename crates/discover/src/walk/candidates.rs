@@ -30,9 +30,6 @@ const FALLS: f64 = 0.01;
 const FIRST_OF_ALL: usize = 2;
 const SURELY: f64 = 100.0;
 
-/// Mean squared residual, in units of the floor, up to which a model is near.
-const NEARBY: f64 = 3.0;
-
 /// So many more are refitted where the model is far off.
 const BESIDE: usize = 20;
 
@@ -130,9 +127,6 @@ impl Walk<'_> {
     /// amount and shape at which it is tried.
     pub(super) fn begun(&self, point: &Fitted, context: &Context) -> Vec<Candidate> {
         let mut near = Vec::new();
-        let now = self.judged(&self.best.blocks);
-        // What is near shows on long windows where it goes from there; on short ones the starts take up what is left.
-        let board = if now.level() < NEARBY { &self.board } else { &self.short };
         for (kind, probes) in gram::lacking(&self.board, &self.best.rig, context) {
             let one = |(probe, tried): (&Vec<f64>, &f64)| {
                 let values = gram::tried(kind, probe, *tried, context);
@@ -140,8 +134,9 @@ impl Walk<'_> {
             };
             let each = probes.iter().flat_map(|p| kind.tried().iter().map(move |t| (p, t)));
             let all: Vec<(Kind, Rig)> = each.map(one).collect();
-            near.extend(board.raced(&all, &BEGUN, &AFRESH));
+            near.extend(self.short.raced(&all, &BEGUN, &AFRESH));
         }
+        let now = self.judged(&self.best.blocks);
         if now.level() > GROSS {
             // What shows so much on long windows does on short ones, beside the model as it is, of whatever kind.
             let without =
