@@ -183,7 +183,9 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
             (_, Measure::Speed, _) if kind == Kind::SublinearDrag && bare => {
                 value.abs() >= AT_ONCE * context.speed
             }
-            (Shape::Fitted, Measure::One, _) if key.name == "ratio" => value >= LIGHTEST,
+            (_, Measure::One, _) if !kind.tried().is_empty() && key.name == "ratio" => {
+                value >= LIGHTEST
+            }
             (_, Measure::Speed, _) => value.abs() >= SLOWEST * context.speed,
             _ => true,
         };

@@ -129,27 +129,27 @@ impl Walk<'_> {
         Ok(surely_worse(&near, &free))
     }
 
-    fn map(&self, context: &Context) -> Result<Option<MapOf>, FitError> {
+    /// The maps of what is left, the one that lowers the sum of squares most first.
+    fn maps(&self, context: &Context) -> Result<Vec<MapOf>, FitError> {
         let now = self.judged(&self.best.blocks).level();
+        let shown = |map: Map| {
+            let blocks: Vec<Vec<f64>> = map.left.iter().map(|sum| vec![*sum]).collect();
+            let gone = shrink(now, self.judged(&blocks).level());
+            MapOf { axis: map.axis, at: map.at, force: map.force, shrink: gone, gain: map.gain }
+        };
         // The residuals are those of the fine steps, the derivatives need not be.
-        let all = maps::maps(&self.board, &self.best, context)?;
-        let rated = all.into_iter().map(|map| self.shown(map, now));
-        Ok(rated.max_by(|a, b| a.shrink.total_cmp(&b.shrink)))
+        Ok(maps::maps(&self.board, &self.best, context)?.into_iter().map(shown).collect())
+    }
+
+    /// The map that takes away most of what is left.
+    fn map(&self, context: &Context) -> Result<Option<MapOf>, FitError> {
+        Ok(self.maps(context)?.into_iter().max_by(|a, b| a.shrink.total_cmp(&b.shrink)))
     }
 
     /// The map of what acts though it leaves hardly more than noise does: one that lowers the sum of squares, beside all
     /// parameters, by far more than as many numbers do by chance.
     fn faint(&self, context: &Context) -> Result<Option<MapOf>, FitError> {
-        let now = self.judged(&self.best.blocks).level();
-        let found = maps::maps(&self.board, &self.best, context)?.into_iter().next();
-        Ok(found.filter(|map| map.gain > ACTS).map(|map| self.shown(map, now)))
-    }
-
-    /// A map as it is shown, with what it takes away of what is left now.
-    fn shown(&self, map: Map, now: f64) -> MapOf {
-        let blocks: Vec<Vec<f64>> = map.left.iter().map(|sum| vec![*sum]).collect();
-        let gone = shrink(now, self.judged(&blocks).level());
-        MapOf { axis: map.axis, at: map.at, force: map.force, shrink: gone, gain: map.gain }
+        Ok(self.maps(context)?.into_iter().next().filter(|map| map.gain > ACTS))
     }
 
     /// All free values of the last model with their standard errors, as if those that are `known` were, and the names

@@ -72,7 +72,7 @@ pub(super) fn found<'r>(
     let mut plausible = rated.iter().filter(|r| r.plausible);
     // What noise leaves is known to a tenth or so: what lies below is no excess.
     let floor = plausible.clone().next()?.judged.level().min(1.0);
-    let share = |other: &Judged| shrink(now.level() / floor, other.level() / floor);
+    let share = |other: &Judged| share_of(now, other, floor);
     let best = plausible.find(|r| sure(now, &r.judged, (share(&r.judged), round)))?;
     let gone = share(&best.judged);
     let as_much = |r: &Rated| {
@@ -110,8 +110,12 @@ pub(super) fn numbers(kind: Kind) -> usize {
 
 /// Whether an effect beside so many others is surely there, by what is left without and with it.
 pub(super) fn shows(without: &Judged, with: &Judged, others: usize) -> bool {
-    let floor = with.level().min(1.0);
-    sure(without, with, (shrink(without.level() / floor, with.level() / floor), others))
+    sure(without, with, (share_of(without, with, with.level().min(1.0)), others))
+}
+
+/// The share of the excess over a floor that is gone with an effect.
+fn share_of(without: &Judged, with: &Judged, floor: f64) -> f64 {
+    shrink(without.level() / floor, with.level() / floor)
 }
 
 /// Whether what takes away the share `gone` of the excess is surely there.
