@@ -239,10 +239,7 @@ impl<'a> Walk<'a> {
             let now = self.judged(&self.best.blocks);
             let needless = |without: &Fitted| {
                 let there = self.judged(&without.blocks);
-                let near = there.against(&now) < SURE && there.level() < AS_GOOD * now.level();
-                // What is taken for what it gains in many blocks is kept for it.
-                let gains = shows(&there, &now, effects.len() - 1);
-                near && !gains && self.board.strayed(without).is_empty()
+                as_good(&there, &now, effects.len() - 1) && self.board.strayed(without).is_empty()
             };
             // What comes near at once may come all the way.
             if !needless(&without) && self.judged(&without.blocks).level() < CLOSE_TO * now.level()
@@ -266,6 +263,13 @@ impl<'a> Walk<'a> {
     }
 }
 
+/// Whether a model is as good `without` an effect as `with` it, beside so many others. What is taken for what it gains in
+/// many blocks is kept for it.
+fn as_good(without: &Judged, with: &Judged, others: usize) -> bool {
+    let near = without.against(with) < SURE && without.level() < AS_GOOD * with.level();
+    near && !shows(without, with, others)
+}
+
 /// `rig` without one of its effects.
 pub(super) fn lacking(rig: &Rig, name: &str) -> Rig {
     let mut rig = rig.clone();
@@ -277,6 +281,7 @@ pub(super) fn lacking(rig: &Rig, name: &str) -> Rig {
 #[cfg(test)]
 mod tests {
     use crate::{
+        decide::Judged,
         model::Candidate,
         walk::made::{BIAS, context, data, found, rig, walk, with, with as made_with},
     };
@@ -323,6 +328,18 @@ mod tests {
             assert_eq!(effects.len(), left, "the nominal model is near, or far off");
             assert_eq!((effects[0].name, walk.best.rig.effects.len()), ("current_bias", left));
         }
+    }
+
+    #[test]
+    fn what_gains_in_a_few_blocks_is_kept() {
+        // In so many of 20 blocks it is 75 squared standard errors each, in the others nothing.
+        let of = |far: usize, most: f64| {
+            let blocks = (0..20).map(|k| if k < far { most } else { 1.0 + 0.001 * k as f64 });
+            Judged { blocks: blocks.collect(), counts: vec![300.0; 20] }
+        };
+        let kept = |far| !super::as_good(&of(far, 1.25), &of(far, 1.0), 0);
+        assert!(of(6, 1.25).against(&of(6, 1.0)) < super::SURE);
+        assert!(kept(6) && !kept(2));
     }
 
     #[test]
