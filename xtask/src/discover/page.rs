@@ -4,7 +4,7 @@ use super::{
     Run, Told,
     answer::identified,
     picture,
-    shown::{acts, axis_unit, between, counted, physics, sounds, telling, with_error},
+    shown::{acts, axis_unit, between, counted, physics, shows, sounds, telling, with_error},
     verdict,
 };
 use crate::{
@@ -241,8 +241,6 @@ fn confirmed(told: &Told) -> Option<FitPart> {
 fn left(told: &Told) -> Option<FitPart> {
     let map = told.found.map.as_ref()?;
     let (unit, force) = (axis_unit(told, map.axis), axis_unit(told, "drive"));
-    // A map that takes nothing away shows noise.
-    let shows = map.shrink > 0.0;
     let panel = FitPanel {
         x: format!("{} [{unit}]", map.axis),
         y: format!("what is left [{force}]"),
@@ -256,7 +254,7 @@ fn left(told: &Told) -> Option<FitPart> {
             .flatten()
             .map(|text| sentence(&text))
             .collect(),
-        figures: shows
+        figures: shows(map)
             .then(|| FitFigure {
                 title: format!("What is left over the {}", map.axis),
                 caption: "A force without a name, fitted piece by piece.".to_owned(),

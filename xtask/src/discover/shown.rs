@@ -212,10 +212,15 @@ pub(super) fn acts(told: &Told, map: &MapOf) -> String {
     )
 }
 
+/// Whether a map lowers the sum of squares by far more than as many numbers do by chance.
+pub(super) fn shows(map: &MapOf) -> bool {
+    map.shrink > 0.0 || map.gain > 3.0 * map.at.len() as f64
+}
+
 /// What is said of a map that takes away nothing of the excess.
 fn faint(map: &MapOf) -> String {
     let chance = map.at.len();
-    if map.gain < 2.0 * chance as f64 {
+    if !shows(map) {
         return "no place of the motion, the drive or the record stands out".to_owned();
     }
     format!(

@@ -9,15 +9,16 @@ const STEP: f64 = 0.01;
 /// What is left of a direction of which less than this is its own is the others' [1].
 const OWN: f64 = 1e-6;
 /// The refit goes on for as long as it leaves less than this share of what it left before, and so often at most.
-const LESS: f64 = 0.98;
-const REFITS: usize = 30;
+const LESS: f64 = 0.9;
+const REFITS: usize = 10;
 /// Parts of a step that are tried in turn.
 const PARTS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
 impl Case {
     /// For each hidden effect, or for the wrong parameter, how well it can be seen beside everything else that the
     /// record holds: the norm of its change over all samples of all channels, each in units of its sensor's noise,
-    /// that is left when the rig's free parameters are refitted to take up as much of it as they can [σ].
+    /// that is left when the rig's free parameters are refitted to take up as much of it as they can [σ]; where that
+    /// refit stops short, what it promises there, which may be too much.
     ///
     /// As in [`super::Visible::local`], a straight line is taken off every second of every change, unless the effect
     /// is something steady. Noise of the recorded drive is not counted against it. Nothing hidden gives no number.
@@ -55,54 +56,73 @@ impl Case {
         let mut free = nominal::free(self.recipe.family, other);
         free.retain(|name| Some(name.as_str()) != wrong);
         let mut at = other.clone();
-        // A refit takes what is steady as it is: preloads that are said by nothing else are said by that.
-        let mut change = self.change(&self.scenario, &at, true)?;
+        let mut here = self.around(&at, self.change(&self.scenario, &at)?, &free)?;
+        let first = here.left(steady).0;
         for _ in 0..REFITS {
-            let (_, steps) = left(&change, &self.directions(&at, &free, true)?);
+            // A refit takes what is steady as it is: preloads that are said by nothing else are said by that.
+            let (_, steps) = here.left(true);
             let moved = |part: f64| {
                 let mut moved = at.clone();
                 for (name, step) in free.iter().zip(steps.iter()) {
                     nominal::scale(&mut moved, name, (1.0 + part * STEP * step).max(STEP));
                 }
-                let then = self.change(&self.scenario, &moved, true).ok()?;
-                (then.norm() < LESS * change.norm()).then_some((moved, then))
+                let then = self.change(&self.scenario, &moved).ok()?;
+                let less = then.of(true).norm() < LESS * here.change.of(true).norm();
+                less.then_some((moved, then))
             };
-            let Some(nearer) = PARTS.into_iter().find_map(moved) else { break };
-            (at, change) = nearer;
+            let Some((moved, change)) = PARTS.into_iter().find_map(moved) else { break };
+            here = self.around(&moved, change, &free)?;
+            at = moved;
         }
         // What cannot be reached is not linear either: what the nearest point known promises counts, and no more than
         // what the first one does.
-        let promised = |at: &Scenario| {
-            let change = self.change(&self.scenario, at, steady)?;
-            Ok(left(&change, &self.directions(at, &free, steady)?).0)
-        };
-        Ok(promised(&at)?.min(promised(other)?))
+        Ok(here.left(steady).0.min(first))
     }
 
-    /// What each free parameter changes.
-    fn directions(
-        &self,
-        at: &Scenario,
-        free: &[String],
-        steady: bool,
-    ) -> Result<Vec<DVector<f64>>, TwinError> {
-        free.iter()
-            .map(|name| {
-                let mut moved = at.clone();
-                nominal::scale(&mut moved, name, 1.0 + STEP);
-                self.change(&moved, at, steady)
-            })
-            .collect()
+    /// A `change` that nature `at` leaves, with what each free parameter changes there.
+    fn around(&self, at: &Scenario, change: Change, free: &[String]) -> Result<Around, TwinError> {
+        let one = |name: &String| {
+            let mut moved = at.clone();
+            nominal::scale(&mut moved, name, 1.0 + STEP);
+            self.change(&moved, at)
+        };
+        let directions = free.iter().map(one).collect::<Result<_, TwinError>>()?;
+        Ok(Around { change, directions })
     }
 
-    fn change(&self, a: &Scenario, b: &Scenario, steady: bool) -> Result<DVector<f64>, TwinError> {
-        let changes = visible::changes(a, b, self.seed)?;
-        let whole = |(_, noise, change): (_, f64, Vec<f64>)| {
-            let change = if steady { change } else { visible::straightened(&change, super::RATE) };
-            change.into_iter().map(move |v| v / noise)
+    fn change(&self, a: &Scenario, b: &Scenario) -> Result<Change, TwinError> {
+        let changes = visible::changes(a, b, self.seed)?.into_iter();
+        let one = |(_, noise, change): (_, f64, Vec<f64>)| {
+            change.into_iter().map(|v| v / noise).collect()
         };
-        let all: Vec<f64> = changes.into_iter().flat_map(whole).collect();
-        Ok(DVector::from_vec(all))
+        Ok(Change(changes.map(one).collect()))
+    }
+}
+
+/// A change of every channel [σ].
+struct Change(Vec<Vec<f64>>);
+
+impl Change {
+    /// All samples of all channels; a straight line is taken off every second of what is not to be `steady`.
+    fn of(&self, steady: bool) -> DVector<f64> {
+        let one = |channel: &Vec<f64>| {
+            if steady { channel.clone() } else { visible::straightened(channel, super::RATE) }
+        };
+        DVector::from_vec(self.0.iter().flat_map(one).collect())
+    }
+}
+
+/// A change, and what each free parameter changes.
+struct Around {
+    change: Change,
+    directions: Vec<Change>,
+}
+
+impl Around {
+    /// The norm of what the parameters leave, to first order, and how much of each takes up the rest.
+    fn left(&self, steady: bool) -> (f64, Vec<f64>) {
+        let directions: Vec<DVector<f64>> = self.directions.iter().map(|d| d.of(steady)).collect();
+        left(&self.change.of(steady), &directions)
     }
 }
 
