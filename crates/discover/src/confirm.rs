@@ -10,6 +10,7 @@ use identify::{
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
 
 /// How many times the recorded input is perturbed by its own noise.
 const TIMES: u64 = 3;
@@ -37,11 +38,13 @@ pub struct Confirmed {
 /// # Errors
 /// A record too short or still, and a `model` that has no motion on it.
 pub fn confirm(nominal: &Rig, model: &Rig, data: &Data) -> Result<Confirmed, FitError> {
-    let before = match simulate(nominal, data, None) {
+    let (before, after) =
+        rayon::join(|| simulate(nominal, data, None), || simulate(model, data, None));
+    let before = match before {
         Err(FitError::NoMotion) => None,
         other => Some(other?),
     };
-    let after = simulate(model, data, None)?;
+    let after = after?;
     let spread = spread(model, data, &after);
     let all = after.gap.iter().zip(&spread).map(|(gap, spread)| {
         let there = before.as_ref().and_then(|b| b.gap.iter().find(|g| g.channel == gap.channel));
@@ -67,14 +70,18 @@ fn spread(model: &Rig, data: &Data, plain: &Simulated) -> Vec<f64> {
     let mut squares = vec![(0.0, 0.0); plain.traces.len()];
     let noise = noise(&data.input);
     let alone = data.force.is_some() || plain.traces.iter().any(|t| t.channel == "input");
-    for time in 0..if alone || noise <= 0.0 { 0 } else { TIMES } {
+    let times = 0..if alone || noise <= 0.0 { 0 } else { TIMES };
+    let perturbed = |time: u64| {
         let mut random = ChaCha8Rng::seed_from_u64(time);
         let mut other = data.clone();
         for u in &mut other.input {
             let drawn: f64 = StandardNormal.sample(&mut random);
             *u += noise * drawn;
         }
-        let Ok(other) = simulate(model, &other, None) else { continue };
+        simulate(model, &other, None).ok()
+    };
+    let others: Vec<Option<Simulated>> = times.into_par_iter().map(perturbed).collect();
+    for other in others.into_iter().flatten() {
         for ((sum, count), (a, b)) in squares.iter_mut().zip(plain.traces.iter().zip(&other.traces))
         {
             *sum += a.after.iter().zip(&b.after).map(|(a, b)| (a - b).powi(2)).sum::<f64>();

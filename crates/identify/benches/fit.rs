@@ -23,7 +23,7 @@ use simulation::{
     anchors::{Anchor, anchors, median},
     plant_reference::solve_located,
 };
-use std::{collections::BTreeMap, error::Error, io::Write, process::ExitCode};
+use std::{collections::BTreeMap, error::Error, io::Write, process::ExitCode, sync::Arc};
 
 /// What is fitted.
 const FREE: [&str; 6] = ["f_c", "f_s", "v_s", "sigma_0", "sigma_1", "sigma_2"];
@@ -141,6 +141,7 @@ fn fitted(rig: &Rig, data: &Data) -> (Found, Vec<f64>) {
         weights,
         spread: &[],
         tolerance: TOLERANCE,
+        course: Arc::default(),
         slopes: 0.0,
     };
     let found = newton::settle(&problem, search(&problem, (&x, None), None, &TO_THE_END), None);

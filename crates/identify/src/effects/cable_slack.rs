@@ -25,7 +25,7 @@ impl Law for CableSlack {
             let torque = taut + by * at.q;
             if torque.re() < 0.0 { torque } else { D::from(0.0) }
         });
-        Act::force((other - one) * p[0])
+        Act::Force((other - one) * p[0])
     }
 
     fn load<D: Real>(p: &[D], _: &Load, force: D) -> D {

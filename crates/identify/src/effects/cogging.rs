@@ -33,6 +33,6 @@ impl Law for Cogging {
         let wave = |turned: D| p[0] * turned.sin() + p[1] * turned.cos();
         let turned = p[2] * at.q;
         let overtone = p[3].re() > NO_OVERTONE;
-        Act::force(if overtone { wave(turned) + p[3] * wave(turned * 2.0 + p[4]) } else { wave(turned) })
+        Act::Force(if overtone { wave(turned) + p[3] * wave(turned * 2.0 + p[4]) } else { wave(turned) })
     }
 }

@@ -21,6 +21,6 @@ impl Law for Coulomb {
     const DRY: bool = true;
 
     fn act<D: Real>(p: &[D], _: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        Act::dry(p[0])
+        Act::Dry(p[0])
     }
 }

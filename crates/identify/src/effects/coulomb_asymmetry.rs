@@ -20,6 +20,6 @@ impl Law for CoulombAsymmetry {
     };
 
     fn act<D: Real>(p: &[D], _: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        Act::skew(p[0])
+        Act::Skew(p[0])
     }
 }

@@ -20,7 +20,7 @@ impl Law for CubicSpring {
     };
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        Act::force(p[0] * at.q * at.q * at.q)
+        Act::Force(p[0] * at.q * at.q * at.q)
     }
 
     fn load<D: Real>(p: &[D], load: &Load, force: D) -> D {

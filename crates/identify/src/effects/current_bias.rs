@@ -19,7 +19,7 @@ impl Law for CurrentBias {
         test: 0.1,
     };
 
-    fn input<D: Real>(p: &[D], u: D) -> D {
-        u + p[0]
+    fn input<D: Real>(p: &[D], u: &mut D) {
+        *u += p[0];
     }
 }

@@ -46,7 +46,7 @@ pub(super) fn is_free(rig: &Rig, key: &str) -> bool {
 /// Friction that grows by a `share` of itself, in one of two forms: 1, as a contact that presses harder, whose stiffness
 /// grows as well; 2, by the level at which it slips alone.
 pub(super) fn grows<D: Real>(form: D, share: D) -> Act<D> {
-    if form.re() < 1.5 { Act::more(share) } else { Act::level(share) }
+    if form.re() < 1.5 { Act::More(share) } else { Act::Level(share) }
 }
 
 /// Every probe in each of the `forms`; without a deflection they are all one.

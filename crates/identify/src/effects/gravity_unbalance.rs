@@ -21,6 +21,6 @@ impl Law for GravityUnbalance {
     };
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        Act::force(p[0] * at.q.sin() + p[1] * at.q.cos())
+        Act::Force(p[0] * at.q.sin() + p[1] * at.q.cos())
     }
 }

@@ -73,76 +73,70 @@ impl Past<'_> {
     }
 }
 
-/// What an effect adds to the friction F of the model: most add one of these. With zeros in place of what is not there
-/// a motion took a quarter longer, and its derivatives half as long again.
+/// What an effect adds to the friction F of the model.
 #[derive(Debug, Clone, Copy)]
-pub struct Act<D> {
+pub enum Act<D> {
+    /// Nothing.
+    None,
     /// A force beside it [N], smooth in the velocity.
-    pub force: Option<D>,
+    Force(D),
     /// F grows by this share of itself [1].
-    pub more: Option<D>,
+    More(D),
     /// F grows by this share of itself where it is positive, and falls where it is negative [1].
-    pub skew: Option<D>,
+    Skew(D),
     /// The level at which the contact slips is higher by so much [N]: bristles slip at a larger deflection, what has
     /// none grows as a whole.
-    pub rise: Option<D>,
+    Rise(D),
     /// The level at which the contact slips grows by this share of itself, and its stiffness stays [1].
-    pub level: Option<D>,
+    Level(D),
     /// A force against the motion that holds at rest [N].
+    Dry(D),
+}
+
+/// What all effects together add to it, each as [`Act`] has it. With zeros in place of what is not there a motion took
+/// a quarter longer, and its derivatives half as long again.
+#[derive(Debug, Clone, Copy)]
+pub struct Acts<D> {
+    /// Of all [`Act::Force`] [N].
+    pub force: Option<D>,
+    /// Of all [`Act::More`] [1].
+    pub more: Option<D>,
+    /// Of all [`Act::Skew`] [1].
+    pub skew: Option<D>,
+    /// Of all [`Act::Rise`] [N].
+    pub rise: Option<D>,
+    /// Of all [`Act::Level`] [1].
+    pub level: Option<D>,
+    /// Of all [`Act::Dry`] [N].
     pub dry: Option<D>,
 }
 
-/// Adds what may be there to what may be there.
-fn add<D: Real>(sum: &mut Option<D>, more: Option<D>) {
-    if let Some(more) = more {
-        *sum = Some(sum.map_or(more, |sum| sum + more));
+/// Adds to what may be there.
+fn add<D: Real>(sum: &mut Option<D>, more: D) {
+    if let Some(sum) = sum {
+        *sum += more;
+    } else {
+        *sum = Some(more);
     }
 }
 
-impl<D: Real> Act<D> {
+impl<D: Real> Acts<D> {
     /// None at all.
     pub fn none() -> Self {
         Self { force: None, more: None, skew: None, rise: None, level: None, dry: None }
     }
 
-    /// A force beside the friction [N].
-    pub fn force(force: D) -> Self {
-        Self { force: Some(force), ..Self::none() }
-    }
-
-    /// A share by which the friction grows [1].
-    pub fn more(more: D) -> Self {
-        Self { more: Some(more), ..Self::none() }
-    }
-
-    /// A share by which the level grows at which the contact slips [1].
-    pub fn level(level: D) -> Self {
-        Self { level: Some(level), ..Self::none() }
-    }
-
-    /// A share by which the friction grows where it is positive, and falls where it is negative [1].
-    pub fn skew(skew: D) -> Self {
-        Self { skew: Some(skew), ..Self::none() }
-    }
-
-    /// By how much the level is higher [N].
-    pub fn rise(rise: D) -> Self {
-        Self { rise: Some(rise), ..Self::none() }
-    }
-
-    /// A force against the motion that holds at rest [N].
-    pub fn dry(dry: D) -> Self {
-        Self { dry: Some(dry), ..Self::none() }
-    }
-
-    /// Adds what another effect does.
-    pub(crate) fn add(&mut self, other: &Self) {
-        add(&mut self.force, other.force);
-        add(&mut self.more, other.more);
-        add(&mut self.skew, other.skew);
-        add(&mut self.rise, other.rise);
-        add(&mut self.level, other.level);
-        add(&mut self.dry, other.dry);
+    /// Adds what an effect does.
+    pub(crate) fn add(&mut self, act: Act<D>) {
+        match act {
+            Act::None => {}
+            Act::Force(force) => add(&mut self.force, force),
+            Act::More(more) => add(&mut self.more, more),
+            Act::Skew(skew) => add(&mut self.skew, skew),
+            Act::Rise(rise) => add(&mut self.rise, rise),
+            Act::Level(level) => add(&mut self.level, level),
+            Act::Dry(dry) => add(&mut self.dry, dry),
+        }
     }
 
     /// Where no bristle has taken the rise of the level, all of the friction of level `f_c` grows by it.
@@ -150,14 +144,16 @@ impl<D: Real> Act<D> {
         let Some(rise) = self.rise.filter(|_| !bristles) else { return };
         let f_c = f_c();
         if f_c.re() > 0.0 {
-            add(&mut self.more, Some(rise / f_c));
+            add(&mut self.more, rise / f_c);
         }
     }
 
     /// By what share of itself friction grows that goes the `way` [1]; none if it stays as it is.
     pub(crate) fn share(&self, way: f64) -> Option<D> {
         let mut share = self.more;
-        add(&mut share, self.skew.map(|skew| skew * way));
+        if let Some(skew) = self.skew {
+            add(&mut share, skew * way);
+        }
         share
     }
 
@@ -169,7 +165,7 @@ impl<D: Real> Act<D> {
 
 /// What the sensors show at a sample.
 #[derive(Debug)]
-pub struct Sense<'a, D> {
+pub struct Sense<D> {
     /// Displacement [m].
     pub q: D,
     /// Velocity [m/s].
@@ -184,8 +180,6 @@ pub struct Sense<'a, D> {
     pub rate: f64,
     /// Time since the sample before [s]; 0 at the first.
     pub dt: f64,
-    /// What the effect remembers from sample to sample.
-    pub memory: &'a mut D,
 }
 
 /// A load cell at a sample.
@@ -218,29 +212,23 @@ pub trait Law {
     /// The forms that it may take, if there is more than one: values of its key `form`.
     const FORMS: &[f64] = &[];
 
-    /// The input as it truly is where `u` was recorded.
-    fn input<D: Real>(_p: &[D], u: D) -> D {
-        u
-    }
+    /// Turns the input `u` as it was recorded into the true one.
+    fn input<D: Real>(_p: &[D], _u: &mut D) {}
 
     /// By how much the input comes late [s].
     fn delay<D: Real>(_p: &[D]) -> Option<D> {
         None
     }
 
-    /// The drive [N] as it truly is where the plant's equation says `force`.
-    fn drive<D: Real>(_p: &[D], force: D) -> D {
-        force
-    }
+    /// Turns the drive `force` [N] of the plant's equation into the true one.
+    fn drive<D: Real>(_p: &[D], _force: &mut D) {}
 
-    /// The mass [kg].
-    fn mass<D: Real>(_p: &[D], mass: D) -> D {
-        mass
-    }
+    /// Turns the `mass` [kg] of the plant's equation into the true one.
+    fn mass<D: Real>(_p: &[D], _mass: &mut D) {}
 
     /// What it adds to the friction; its states after a stage that began with `base` go to `z`.
     fn act<D: Real>(_p: &[D], _at: &At<D>, _base: &[D], _z: &mut [D]) -> Act<D> {
-        Act::none()
+        Act::None
     }
 
     /// Its state number `place` after long sliding in the direction `way`, or at rest if that is 0, with what was before;
@@ -254,8 +242,8 @@ pub trait Law {
         None
     }
 
-    /// What the sensors show.
-    fn sense<D: Real>(_p: &[D], _sense: &mut Sense<'_, D>) {}
+    /// What the sensors show; `memory` is what the effect remembers from sample to sample.
+    fn sense<D: Real>(_p: &[D], _sense: &mut Sense<D>, _memory: &mut D) {}
 
     /// What a load cell shows [N] where the nominal spring pulls with `force`.
     fn load<D: Real>(_p: &[D], _load: &Load, force: D) -> D {

@@ -22,9 +22,9 @@ impl Law for Inertia {
         test: 0.1,
     };
 
-    fn mass<D: Real>(p: &[D], mass: D) -> D {
+    fn mass<D: Real>(p: &[D], mass: &mut D) {
         // No plant has less than nothing.
         let ratio = if p[0].re() > LEAST { p[0] } else { D::from(LEAST) };
-        mass + mass * ratio
+        *mass += *mass * ratio;
     }
 }

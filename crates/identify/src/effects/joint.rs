@@ -84,7 +84,7 @@ impl<D: Real> Joint<D> {
         z[0] = x + speed * at.dt;
         z[1] = speed;
         z[2] = self.gives * self.rubbed(&free, speed);
-        Act::force(force - Self::pull(at, at.q).0)
+        Act::Force(force - Self::pull(at, at.q).0)
     }
 
     /// The force of the joint and the speed of the load at the end of the stage.

@@ -35,6 +35,6 @@ impl Law for Map {
         };
         let away = (x - p[2]) / p[3];
         let away = if away.re() < 0.0 { -away } else { away };
-        if away.re() >= 1.0 { Act::none() } else { Act::force(p[0] * (-away + 1.0)) }
+        if away.re() >= 1.0 { Act::None } else { Act::Force(p[0] * (-away + 1.0)) }
     }
 }

@@ -40,7 +40,7 @@ impl Law for MaxwellSlip {
                 force += p[0] * share * delta * z[i];
             }
         }
-        Act::force(force)
+        Act::Force(force)
     }
 
     fn start<D: Real>(p: &[D], place: usize, (way, _, past): (f64, f64, Past<'_>)) -> D {

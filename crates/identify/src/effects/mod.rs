@@ -12,7 +12,7 @@ mod hooks;
 mod joint;
 
 pub use about::{About, Channel, Context, Key, Measure, Shape, Sign};
-pub use hooks::{Act, At, LONG, Law, Load, Past, Sense, Term};
+pub use hooks::{Act, Acts, At, LONG, Law, Load, Past, Sense, Term};
 pub use joint::Joint;
 pub(crate) use joint::hides_load;
 
@@ -55,7 +55,7 @@ macro_rules! effects {
                  }
             }
 
-            pub(crate) fn input<D: Real>(self, p: &[D], u: D) -> D {
+            pub(crate) fn input<D: Real>(self, p: &[D], u: &mut D) {
                 match self {
                     $(Self::$law => $module::$law::input(p, u),)*
                     $(Self::$hidden => $other::$hidden::input(p, u),)*
@@ -69,14 +69,14 @@ macro_rules! effects {
                  }
             }
 
-            pub(crate) fn drive<D: Real>(self, p: &[D], force: D) -> D {
+            pub(crate) fn drive<D: Real>(self, p: &[D], force: &mut D) {
                 match self {
                     $(Self::$law => $module::$law::drive(p, force),)*
                     $(Self::$hidden => $other::$hidden::drive(p, force),)*
                  }
             }
 
-            pub(crate) fn mass<D: Real>(self, p: &[D], mass: D) -> D {
+            pub(crate) fn mass<D: Real>(self, p: &[D], mass: &mut D) {
                 match self {
                     $(Self::$law => $module::$law::mass(p, mass),)*
                     $(Self::$hidden => $other::$hidden::mass(p, mass),)*
@@ -140,10 +140,10 @@ macro_rules! effects {
                  }
             }
 
-            pub(crate) fn sense<D: Real>(self, p: &[D], sense: &mut Sense<'_, D>) {
+            pub(crate) fn sense<D: Real>(self, p: &[D], sense: &mut Sense<D>, memory: &mut D) {
                 match self {
-                    $(Self::$law => $module::$law::sense(p, sense),)*
-                    $(Self::$hidden => $other::$hidden::sense(p, sense),)*
+                    $(Self::$law => $module::$law::sense(p, sense, memory),)*
+                    $(Self::$hidden => $other::$hidden::sense(p, sense, memory),)*
                  }
             }
 

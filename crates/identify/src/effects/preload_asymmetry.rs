@@ -24,7 +24,7 @@ impl Law for PreloadAsymmetry {
     };
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        Act::force(p[0] * at.radius)
+        Act::Force(p[0] * at.radius)
     }
 
     fn load<D: Real>(p: &[D], load: &Load, force: D) -> D {

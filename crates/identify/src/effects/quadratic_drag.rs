@@ -20,6 +20,6 @@ impl Law for QuadraticDrag {
     };
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        Act::force(p[0] * at.v * if at.v.re() < 0.0 { -at.v } else { at.v })
+        Act::Force(p[0] * at.v * if at.v.re() < 0.0 { -at.v } else { at.v })
     }
 }

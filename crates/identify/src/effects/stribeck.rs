@@ -39,6 +39,6 @@ impl Law for Stribeck {
         };
         let (rise, f_c) = (p[0] * share, at.f_c());
         let level = form < 2.5 || form == 5.0;
-        if level || f_c.re() <= 0.0 { Act::rise(rise) } else { Act::more(rise / f_c) }
+        if level || f_c.re() <= 0.0 { Act::Rise(rise) } else { Act::More(rise / f_c) }
     }
 }

@@ -48,10 +48,10 @@ impl Law for SublinearDrag {
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
         let s = at.v / p[1];
         if p[3].re() == EYRING {
-            return Act::force(p[0] * p[1] * asinh(s * p[2]) / p[2]);
+            return Act::Force(p[0] * p[1] * asinh(s * p[2]) / p[2]);
         }
         // What falls again in faster motion is another effect.
         let bend = if p[2].re() > 1.0 { D::from(1.0) } else { p[2] };
-        Act::force(p[0] * at.v * ((s * s + 1.0).ln() * (bend * -0.5)).exp())
+        Act::Force(p[0] * at.v * ((s * s + 1.0).ln() * (bend * -0.5)).exp())
     }
 }

@@ -19,7 +19,7 @@ impl Law for TachBias {
         test: 0.1,
     };
 
-    fn sense<D: Real>(p: &[D], sense: &mut Sense<'_, D>) {
+    fn sense<D: Real>(p: &[D], sense: &mut Sense<D>, _: &mut D) {
         sense.v += p[0];
     }
 }

@@ -45,15 +45,21 @@ impl Law for TorqueSaturation {
 
     const FORMS: &[f64] = &[1.0, ROUND, POWER];
 
-    fn drive<D: Real>(p: &[D], force: D) -> D {
+    fn drive<D: Real>(p: &[D], force: &mut D) {
+        *force -= lost(p, *force) * p[0];
+    }
+}
+
+/// What a drive without any loss but this one loses of the `force` that it is to give [N].
+fn lost<D: Real>(p: &[D], force: D) -> D {
         if p[3].re() == ROUND {
             // All that is lost where the drive gives the knee's tanh of what is asked.
             let given = p[1] * tanh(force / p[1]);
-            return force - (force - given) * p[0];
+            return force - given;
         }
         if p[3].re() == POWER {
             if force.re() == 0.0 {
-                return force;
+                return D::from(0.0);
             }
             // ln of 1 + |u/knee|^p, without its overflow.
             let power = p[1] / p[2];
@@ -61,13 +67,11 @@ impl Law for TorqueSaturation {
             let over = (size / p[1]).ln() * power;
             let bend = if over.re() > FAR { over } else { (over.exp() + 1.0).ln() };
             let given = force * (-bend / power).exp();
-            return force - (force - given) * p[0];
+            return force - given;
         }
         // What is beyond the knee, and a little of what is before: an amplifier bends, it has no corner.
         let size = if force.re() < 0.0 { -force } else { force };
         let over = (size - p[1]) / p[2];
         let beyond = if over.re() > FAR { over } else { (over.exp() + 1.0).ln() } * p[2];
-        let beyond = if force.re() < 0.0 { -beyond } else { beyond };
-        force - beyond * p[0]
-    }
+        if force.re() < 0.0 { -beyond } else { beyond }
 }

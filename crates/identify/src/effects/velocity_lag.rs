@@ -22,7 +22,7 @@ impl Law for VelocityLag {
         test: 0.1,
     };
 
-    fn sense<D: Real>(p: &[D], sense: &mut Sense<'_, D>) {
+    fn sense<D: Real>(p: &[D], sense: &mut Sense<D>, memory: &mut D) {
         // Exact where the velocity is a line from sample to sample, and was a parabola for long before the first.
         let (tau, slope) = (p[0], sense.slope);
         let follows = sense.v - (slope - sense.bend * tau) * tau;
@@ -30,8 +30,8 @@ impl Law for VelocityLag {
             follows
         } else {
             let kept = (-tau.recip() * sense.dt).exp();
-            follows + kept * (*sense.memory - follows + slope * sense.dt)
+            follows + kept * (*memory - follows + slope * sense.dt)
         };
-        *sense.memory = sense.v;
+        *memory = sense.v;
     }
 }

@@ -20,6 +20,6 @@ impl Law for Viscous {
     };
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        Act::force(p[0] * at.v)
+        Act::Force(p[0] * at.v)
     }
 }

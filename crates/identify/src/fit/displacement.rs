@@ -38,9 +38,41 @@ pub fn corners(u: &[f64]) -> Vec<bool> {
     corners
 }
 
+/// An imposed motion as every model sees it: its velocity at the samples, and the pieces between them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Course {
+    /// The velocity at every sample [m/s].
+    pub(super) velocity: Vec<f64>,
+    /// The pieces of constant velocity: where each ends [m], and its velocity [m/s].
+    pieces: Vec<(f64, f64)>,
+    /// How many of them there are up to each sample.
+    until: Vec<usize>,
+}
+
+impl Course {
+    /// That of the displacement `u` [m] at `time` [s].
+    pub fn of(time: &[f64], u: &[f64]) -> Self {
+        let corners = corners(u);
+        let mut course = Self::default();
+        for i in 0..u.len() {
+            course.velocity.push(velocity(time, (u, &corners), i));
+            if i > 0 {
+                course.pieces.extend(way(time, (u, &corners), i));
+            }
+            course.until.push(course.pieces.len());
+        }
+        course
+    }
+
+    /// The pieces from sample `i − 1` to `i`.
+    pub(super) fn way(&self, i: usize) -> &[(f64, f64)] {
+        &self.pieces[self.until[i - 1]..self.until[i]]
+    }
+}
+
 /// The velocity [m/s] at sample `i`: of the quartic through five samples, or of the parabola through three where they
 /// are too few, not evenly spaced, or a corner is among them; next to a corner, of the line on this side of it.
-pub(super) fn velocity(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> f64 {
+fn velocity(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> f64 {
     let (mut before, mut after) = (i.saturating_sub(1), (i + 1).min(u.len() - 1));
     if corners[after] && !corners[before] && i > before {
         after = i;
@@ -80,7 +112,7 @@ fn between((u, corners): (&[f64], &[bool]), i: usize, share: f64) -> f64 {
 }
 
 /// The pieces of constant velocity on the way from sample `i − 1` to `i`: where each ends [m], and its velocity [m/s].
-pub(super) fn way(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> Vec<(f64, f64)> {
+fn way(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> Vec<(f64, f64)> {
     let dt = time[i] - time[i - 1];
     if let Some(turn) = turned(time, (u, corners), i) {
         return turn.to_vec();

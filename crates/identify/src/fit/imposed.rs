@@ -1,12 +1,13 @@
 //! The friction force under an imposed motion: no equation of motion, the displacement does all.
 
-use super::displacement::{corners, velocity, way};
+use super::displacement::Course;
 use crate::{
-    effects::{Act, At},
+    effects::{Acts, At},
     march::{Contact, Model, Real, deflection},
 };
 
-/// Calls `see(i, F)` with the friction force [N] at every sample of the displacement `u` [m] at `time` [s].
+/// Calls `see(i, F)` with the friction force [N] at every sample of the displacement `u` [m] at `time` [s], of which `course` is the
+/// [`Course`].
 ///
 /// Between samples the displacement follows the cubic through the four samples around it, in pieces of constant
 /// velocity, on which every model has its exact answer; the velocity at a sample, on which the force depends
@@ -14,23 +15,22 @@ use crate::{
 /// `seen` first.
 pub(super) fn forces<D: Real>(
     model: &Model<D>,
-    time: &[f64],
-    u: &[f64],
+    (time, u, course): (&[f64], &[f64], &Course),
     seen: f64,
     see: &mut dyn FnMut(usize, D),
 ) {
-    let corners = corners(u);
-    let velocity = |i: usize| velocity(time, (u, &corners), i);
+    let velocity = |i: usize| course.velocity[i];
     let viscous = |i: usize| model.sigma_2 * velocity(i) + model.offset;
     let mut z = model.contact.holding(begun(&model.contact, -viscous(0) + seen, velocity(0)));
     let mut direction = 0.0;
     let mut aged = model.effects_from(0.0, crate::effects::Past::unknown());
+    let (mut base, mut before, mut other) = (aged.clone(), z.clone(), aged.clone());
     for i in 0..u.len() {
-        let mut act = Act::none();
+        let mut act = Acts::none();
         let dt = if i > 0 { time[i] - time[i - 1] } else { 0.0 };
         let step = if i > 0 { u[i] - u[i - 1] } else { 0.0 };
-        let base = aged.clone();
-        let before = z.clone();
+        base.copy_from_slice(&aged);
+        before.copy_from_slice(&z);
         let motion = (u[i], step / dt.max(f64::MIN_POSITIVE));
         let now = at(model, (time[i], dt), motion, &before);
         if !model.effects.is_empty() {
@@ -44,7 +44,7 @@ pub(super) fn forces<D: Real>(
         };
         if i > 0 {
             let mut last = u[i - 1];
-            for (next, speed) in way(time, (u, &corners), i) {
+            for &(next, speed) in course.way(i) {
                 let grown = levels.then(|| raised(0.5 * (last + next)));
                 let contact = grown.as_ref().unwrap_or(&model.contact);
                 slide(contact, &mut z, next - last, (speed, act.rise));
@@ -57,8 +57,8 @@ pub(super) fn forces<D: Real>(
         if !model.effects.is_empty() {
             // What depends on the velocity depends on that of the sample, what slides on that of the step.
             let now = At { v: D::from(velocity(i)), dt: 0.0, ..now };
-            let here = model.acts(&now, &aged, &mut base.clone());
-            act = Act { force: here.force, more: here.more, rise: here.rise, ..act };
+            let here = model.acts(&now, &aged, &mut other);
+            act = Acts { force: here.force, more: here.more, rise: here.rise, ..act };
             act.risen(|| model.contact.level(), model.contact.bristles());
         }
         let grown = levels.then(|| raised(u[i]));
@@ -181,11 +181,20 @@ fn force<D: Real>(contact: &Contact<D>, z: &[D], (v, rise): (f64, Option<D>), di
 
 #[cfg(test)]
 mod tests {
-    use super::{Contact, Model, forces};
+    use super::{Contact, Course, Model, forces};
     use crate::{Rig, fit::binding};
 
     const RIG: &str = "title = \"a slide\"\n[plant]\nkind = \"prescribed\"\n[channels]\ntime = \"t\"\n\
         displacement = \"x\"\nforce = \"f\"\n[friction]\n";
+
+    fn driven(
+        model: &Model<f64>,
+        (time, u): (&[f64], &[f64]),
+        seen: f64,
+        see: &mut dyn FnMut(usize, f64),
+    ) {
+        forces(model, (time, u, &Course::of(time, u)), seen, see);
+    }
 
     fn model(friction: &str) -> Model<f64> {
         binding::model(&Rig::parse(&format!("{RIG}{friction}\n")).unwrap(), &|_| None)
@@ -198,7 +207,7 @@ mod tests {
         let x = |t: f64| if t < turn { 0.1 * t } else { 0.1 * turn - 0.05 * (t - turn) };
         let u: Vec<f64> = time.iter().map(|t| x(*t)).collect();
         let mut seen = Vec::new();
-        forces(model, &time, &u, 0.0, &mut |_, f| seen.push(f));
+        driven(model, (&time, &u), 0.0, &mut |_, f| seen.push(f));
         (time, seen)
     }
 
@@ -225,7 +234,7 @@ mod tests {
             "name = \"maxwell-slip\"\nk = [3e5]\ndelta = [5e-6]\nsigma_2 = 0.0",
         ] {
             let mut seen = Vec::new();
-            forces(&model(friction), &time, &u, 0.0, &mut |_, f| seen.push(f));
+            driven(&model(friction), (&time, &u), 0.0, &mut |_, f| seen.push(f));
             // At the sample at which it comes to rest there are two velocities.
             for (t, f) in time.iter().zip(seen).skip(22) {
                 assert!((f - 1.5).abs() < 1e-12, "{f} N of 1.5 N at {t} s");
@@ -244,7 +253,7 @@ mod tests {
             let time: Vec<f64> = (0..41).map(|i| 2.5e-4 * f64::from(i)).collect();
             let u: Vec<f64> = time.iter().map(|t| 0.1 * t).collect();
             let mut seen = Vec::new();
-            forces(&model, &time, &u, 0.0, &mut |_, f| seen.push(f));
+            driven(&model, (&time, &u), 0.0, &mut |_, f| seen.push(f));
             for (u, f) in u.iter().zip(seen).skip(1) {
                 let truth = level * (1.0 - (-stiffness * u / level).exp());
                 assert!((f - truth).abs() < 1e-9, "form {form}: {f} N of {truth} N at {u} m");
@@ -264,7 +273,7 @@ mod tests {
         let time: Vec<f64> = (0..200).map(|i| 0.005 * f64::from(i)).collect();
         let u: Vec<f64> = time.iter().map(|t| 0.1 * t).collect();
         let mut seen = Vec::new();
-        forces(&model, &time, &u, 0.0, &mut |_, f| seen.push(f));
+        driven(&model, (&time, &u), 0.0, &mut |_, f| seen.push(f));
         let slope = |u: f64, f: f64| sigma * (1.0 - f / (2.0 + 0.6 * (k * u).sin()));
         let (mut truth, h) = (0.0, 5e-6);
         for i in 0..199 {
@@ -291,7 +300,7 @@ mod tests {
         let time: Vec<f64> = (0..20).map(|i| 0.005 * f64::from(i)).collect();
         let u: Vec<f64> = time.iter().map(|t| 0.1 * t).collect();
         let mut seen = Vec::new();
-        forces(&model, &time, &u, sigma_1 * 0.1, &mut |_, f| seen.push(f));
+        driven(&model, (&time, &u), sigma_1 * 0.1, &mut |_, f| seen.push(f));
         for (t, f) in time.iter().zip(seen) {
             // z = r (1 − exp(−vt/r)) with r = F_C/σ₀, and ż = v exp(−vt/r).
             let left = (-0.1 * t / 1e-3).exp();

@@ -30,7 +30,7 @@ pub mod whitening;
 pub mod window;
 
 pub use data::{Data, Seen};
-pub use displacement::corners;
+pub use displacement::{Course, corners};
 pub use estimate::Estimate;
 pub use gap::{Misfit, Simulated, Trace, moves, simulate};
 pub use models::{Candidate, candidates};
@@ -41,6 +41,7 @@ use gap::{gap, traces};
 use interval::{Interval, Spread};
 use problem::{Problem, Weights};
 use search::{End, Found, TO_THE_END};
+use std::sync::Arc;
 use way::best_way;
 
 /// What the fit is asked for.
@@ -296,6 +297,8 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     let windows = blocks::whole(data);
     let (free, counts) = (Vec::new(), Vec::new());
     let memory = binding::model::<f64>(rig, &|_| None).contact.memory();
+    let imposed = data.force.is_some();
+    let course = if imposed { Course::of(&data.time, &data.input) } else { Course::default() };
     Ok(Problem {
         rig,
         data,
@@ -309,6 +312,7 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
         weights,
         spread: &[],
         tolerance: tolerance(data),
+        course: Arc::new(course),
         slopes: 0.0,
     })
 }

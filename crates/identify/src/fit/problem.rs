@@ -3,6 +3,7 @@
 use super::{
     binding::{Free, Scale, given, model},
     data::Data,
+    displacement::Course,
     imposed::forces,
     piece::Starts,
     window::{ONE_MASS, START, Window},
@@ -17,6 +18,7 @@ use crate::{
 };
 use nalgebra::{DMatrix, DMatrixViewMut};
 use rayon::prelude::*;
+use std::{borrow::Cow, sync::Arc};
 
 /// A record, a rig and what of it is free: the least-squares problem of the fit.
 ///
@@ -50,6 +52,8 @@ pub struct Problem<'a> {
     pub spread: &'a [[f64; 2]],
     /// The steps' tolerance, of the spans of displacement and velocity [1].
     pub tolerance: f64,
+    /// The course of the whole record if its motion is imposed; else empty.
+    pub course: Arc<Course>,
     /// That of the motion along which derivatives are taken [1]: shorter steps than this do not make them better.
     pub slopes: f64,
 }
@@ -91,6 +95,15 @@ impl Problem<'_> {
         }
         let below = self.free.iter().position(|f| f.name == "f_c");
         own + below.map_or_else(|| given(self.rig, "f_c"), |j| self.free[j].value(x[j]))
+    }
+
+    /// The course of the imposed motion in a window.
+    fn course(&self, window: &Window) -> Cow<'_, Course> {
+        if window.len() == self.data.time.len() {
+            return Cow::Borrowed(&self.course);
+        }
+        let range = window.first..window.end;
+        Cow::Owned(Course::of(&self.data.time[range.clone()], &self.data.input[range]))
     }
 
     /// The model at the variables `x`.
@@ -153,8 +166,7 @@ impl Problem<'_> {
             let mut motion = Motion::default();
             forces(
                 &model,
-                &self.data.time[range.clone()],
-                &self.data.input[range],
+                (&self.data.time[range.clone()], &self.data.input[range], &self.course(window)),
                 force.values[window.first],
                 &mut |i, f| {
                     motion.q.push(f);
@@ -263,7 +275,7 @@ impl Problem<'_> {
     /// The derivatives of a window's residuals by the variables and then by its start, from column `first` on.
     fn jacobian(&self, x: &[f64], window: &Window, piece: &Piece, first: usize) -> DMatrix<f64> {
         let (free, starts) = (self.free.len(), self.starts());
-        let columns = free + if starts == 0 { ONE_MASS } else { starts };
+        let columns = free + starts;
         let mut jacobian = DMatrix::zeros(self.rows(window), columns - first);
         match columns - first {
             0..=3 => self.columns::<4>(x, window, piece, (first, &mut jacobian)),
@@ -317,8 +329,7 @@ impl Problem<'_> {
         if let Some(force) = &self.data.force {
             forces(
                 &model,
-                &self.data.time[range.clone()],
-                &self.data.input[range],
+                (&self.data.time[range.clone()], &self.data.input[range], &self.course(window)),
                 force.values[window.first],
                 &mut |i, f| {
                     if self.share(window.first + i) > 0.0 {

@@ -1,7 +1,7 @@
 //! The plant as the march sees it: one equation for all five kinds.
 
 use super::{Contact, Real, run::Tolerance};
-use crate::effects::{Act, At, Past, Sense, Term};
+use crate::effects::{Acts, At, Past, Sense, Term};
 
 /// What drives the plant beside friction: T = gain·u + constant − stiffness·q − damping·v − gravity·sin q.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,9 +64,15 @@ impl<D: Real> Model<D> {
 
     /// What drives the plant [N] at the recorded input `u`.
     pub(super) fn driving(&self, u: D) -> D {
-        let u = self.effects.iter().fold(u, |u, e| e.kind.input(&e.p, u));
-        let force = self.balance.gain * u;
-        self.effects.iter().fold(force, |force, e| e.kind.drive(&e.p, force))
+        let mut u = u;
+        for e in &self.effects {
+            e.kind.input(&e.p, &mut u);
+        }
+        let mut force = self.balance.gain * u;
+        for e in &self.effects {
+            e.kind.drive(&e.p, &mut force);
+        }
+        force
     }
 
     /// The force on the mass [N] where the drive is `driving`.
@@ -82,9 +88,15 @@ impl<D: Real> Model<D> {
 
     /// The mass [kg] that moves.
     pub(super) fn mass(&self) -> D {
-        self.effects.iter().fold(self.balance.mass, |mass, e| {
-            if e.kind.joins(&e.p) { mass / (e.p[1] + 1.0) } else { e.kind.mass(&e.p, mass) }
-        })
+        let mut mass = self.balance.mass;
+        for e in &self.effects {
+            if e.kind.joins(&e.p) {
+                mass = mass / (e.p[1] + 1.0);
+            } else {
+                e.kind.mass(&e.p, &mut mass);
+            }
+        }
+        mass
     }
 
     /// The number of states, the contact's and then the effects'.
@@ -181,8 +193,8 @@ impl<D: Real> Model<D> {
     }
 
     /// What the effects add to the friction, all together.
-    pub(crate) fn acts(&self, at: &At<D>, base: &[D], z: &mut [D]) -> Act<D> {
-        let mut all = Act::none();
+    pub(crate) fn acts(&self, at: &At<D>, base: &[D], z: &mut [D]) -> Acts<D> {
+        let mut all = Acts::none();
         let mut first = 0;
         for e in &self.effects {
             let end = first + e.kind.states();
@@ -193,7 +205,7 @@ impl<D: Real> Model<D> {
                 z.copy_from_slice(base);
                 e.kind.act(&e.p, at, base, z)
             };
-            all.add(&act);
+            all.add(act);
             first = end;
         }
         all
@@ -210,11 +222,11 @@ impl<D: Real> Model<D> {
             return z;
         }
         let at = self.at(&Stage::of(self, [t, 0.0], u), [q, v], &z);
-        let (mut all, mut first, mut after) = (Act::none(), 0, others.to_vec());
+        let (mut all, mut first, mut after) = (Acts::none(), 0, others.to_vec());
         for e in &self.effects {
             let end = first + e.kind.states();
             if !e.kind.joins(&e.p) {
-                all.add(&e.kind.act(&e.p, &at, &others[first..end], &mut after[first..end]));
+                all.add(e.kind.act(&e.p, &at, &others[first..end], &mut after[first..end]));
             }
             first = end;
         }
@@ -264,13 +276,11 @@ impl<D: Real> Model<D> {
         [rate, dt]: [f64; 2],
         memory: &mut [D],
     ) -> [D; 2] {
-        let mut now = [q, v];
+        let mut sense = Sense { q, v, moved, slope, bend, rate, dt };
         for (e, memory) in self.effects.iter().zip(memory) {
-            let mut sense = Sense { q: now[0], v: now[1], moved, slope, bend, rate, dt, memory };
-            e.kind.sense(&e.p, &mut sense);
-            now = [sense.q, sense.v];
+            e.kind.sense(&e.p, &mut sense, memory);
         }
-        now
+        [sense.q, sense.v]
     }
 
     /// The same with every number turned into another kind.
@@ -310,7 +320,12 @@ pub(super) struct Stage<D> {
 
 impl<D: Real> Stage<D> {
     /// At the time `t` [s] with the share `dt` [s] of the step, where the recorded input is `u`.
-    pub(super) fn of(model: &Model<D>, [t, dt]: [f64; 2], u: D) -> Self {
-        Self { t, dt, driving: model.driving(u), mass: model.mass() }
+    pub(super) fn of(model: &Model<D>, at: [f64; 2], u: D) -> Self {
+        Self::moving(model.mass(), model, at, u)
+    }
+
+    /// The same where the model's [`Model::mass`] is known: it is the same all along a motion.
+    pub(super) fn moving(mass: D, model: &Model<D>, [t, dt]: [f64; 2], u: D) -> Self {
+        Self { t, dt, driving: model.driving(u), mass }
     }
 }

@@ -154,6 +154,8 @@ const ROUNDING: f64 = 1e-9;
 
 struct Again<'a, const P: usize> {
     model: &'a Model<Dual<P>>,
+    /// The model's mass [kg].
+    mass: Dual<P>,
     base: Base<Dual<P>>,
     z_dot: [Vec<Dual<P>>; 3],
     z: Vec<Dual<P>>,
@@ -165,6 +167,7 @@ impl<'a, const P: usize> Again<'a, P> {
         let none = vec![zero; model.states()];
         Self {
             model,
+            mass: model.mass(),
             base: Base { q: zero, v: zero, z: none.clone() },
             z_dot: std::array::from_fn(|_| none.clone()),
             z: none,
@@ -184,7 +187,7 @@ impl<'a, const P: usize> Again<'a, P> {
         let kick = course.knot.map(|knot| {
             let [before, after] = knot.sides.map(|u| self.model.driving(u).re);
             let when = Dual { re: 0.0, eps: knot.share.eps };
-            when * (dt * (before - after) / self.model.mass().re)
+            when * (dt * (before - after) / self.mass.re)
         });
         let mut parts = course.parts(dt).peekable();
         while let Some(([from, to], ends)) = parts.next() {
@@ -228,7 +231,8 @@ impl<'a, const P: usize> Again<'a, P> {
                 }
             }
             let u = ends[0] + (ends[1] - ends[0]) * (step.from + C[s] * h / dt);
-            let stage = Stage::of(self.model, [t + step.from * dt + C[s] * h, gh], u);
+            let at = [t + step.from * dt + C[s] * h, gh];
+            let stage = Stage::moving(self.mass, self.model, at, u);
             let v = self.velocity(&stage, [step.v[s], step.way[s]]);
             (q_dot[s], v_dot[s]) = (v, (v - self.base.v) / gh);
             for (i, z) in self.z.iter().enumerate() {

@@ -130,6 +130,8 @@ pub(super) fn begun<D: super::Real>([first, second, third]: [D; 3], dt: f64) -> 
 struct Walker<'a> {
     model: &'a Model<f64>,
     probe: Model<Dual<1>>,
+    /// The probe's mass [kg].
+    mass: Dual<1>,
     tolerance: &'a Tolerance,
     /// What a step may be wrong by in each state of contact and effects.
     allowed: Vec<f64>,
@@ -159,9 +161,11 @@ impl<'a> Walker<'a> {
     fn new(model: &'a Model<f64>, start: &Start<f64>, tolerance: &'a Tolerance) -> Self {
         let n = model.states();
         let none = vec![Dual::from(0.0); n];
+        let probe = model.map(Dual::from);
         Self {
             model,
-            probe: model.map(Dual::from),
+            mass: probe.mass(),
+            probe,
             tolerance,
             allowed: model.allowed(tolerance),
             q: start.q,
@@ -250,7 +254,8 @@ impl<'a> Walker<'a> {
             }
             (self.base.q, self.base.v) = (Dual::from(base[0]), Dual::from(base[1]));
             let u = ends[0] + (ends[1] - ends[0]) * ((from + C[s] * h) / dt);
-            let stage = Stage::of(&self.probe, [t + from + C[s] * h, gh], Dual::from(u));
+            let at = [t + from + C[s] * h, gh];
+            let stage = Stage::moving(self.mass, &self.probe, at, Dual::from(u));
             // As fast as it would be if it went on to gain speed as in the stage before. Where that leads near to rest a
             // bristle in its Stribeck zone could stick as well as slide: there it goes on from where it is.
             let on = base[1] + gh * if s == 0 { self.v_dot } else { v_dot[s - 1] };
