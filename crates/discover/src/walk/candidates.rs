@@ -19,6 +19,9 @@ use identify::{
 };
 use rayon::prelude::*;
 
+/// Mean squared residual, in units of the floor, up to which a model is near.
+const NEARBY: f64 = 3.0;
+
 /// What is worth a refit takes so much off the sum of squares, in units of the floor: five standard errors are 25.
 const GAIN: f64 = 12.0;
 
@@ -127,6 +130,9 @@ impl Walk<'_> {
     /// amount and shape at which it is tried.
     pub(super) fn begun(&self, point: &Fitted, context: &Context) -> Vec<Candidate> {
         let mut near = Vec::new();
+        let now = self.judged(&self.best.blocks);
+        // What is near shows on long windows where it goes from there; on short ones the starts take up what is left.
+        let board = if now.level() < NEARBY { &self.board } else { &self.short };
         for (kind, probes) in gram::lacking(&self.board, &self.best.rig, context) {
             let one = |(probe, tried): (&Vec<f64>, &f64)| {
                 let values = gram::tried(kind, probe, *tried, context);
@@ -134,9 +140,8 @@ impl Walk<'_> {
             };
             let each = probes.iter().flat_map(|p| kind.tried().iter().map(move |t| (p, t)));
             let all: Vec<(Kind, Rig)> = each.map(one).collect();
-            near.extend(self.short.raced(&all, &BEGUN, &AFRESH));
+            near.extend(board.raced(&all, &BEGUN, &AFRESH));
         }
-        let now = self.judged(&self.best.blocks);
         if now.level() > GROSS {
             // What shows so much on long windows does on short ones, beside the model as it is, of whatever kind.
             let without =

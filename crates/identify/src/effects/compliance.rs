@@ -21,8 +21,9 @@ impl Law for Compliance {
             GIVES,
         ],
         probes: |c| {
-            let own = |(ratio, encoder): (f64, f64)| vec![ratio, 0.3, 0.01 * c.force, encoder];
-            let all = [(0.05, 1.0), (0.25, 1.0), (0.3, AT_MOTOR)].map(own);
+            // A load that rubs much from the first on hides what else it does; where it does, the descent finds it.
+            let own = |(ratio, rubs, encoder): (f64, f64, f64)| vec![ratio, 0.3, rubs * c.force, encoder];
+            let all = [(0.05, 1e-3, 1.0), (0.25, 1e-3, 1.0), (0.3, 0.01, AT_MOTOR)].map(own);
             all.into_iter().filter(|probe| c.hidden || probe[3] != AT_MOTOR).collect()
         },
         applies: is_joined,
