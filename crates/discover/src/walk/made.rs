@@ -56,6 +56,8 @@ pub(super) fn walk<'a>(rig: &Rig, data: &'a Data, loose: &[(String, f64)]) -> Wa
         given,
         refit: f64::INFINITY,
         ranking: Vec::new(),
+        joins: true,
+        firsts: Vec::new(),
         strayed: Vec::new(),
         before_held: None,
         others: &[],

@@ -1,6 +1,7 @@
 //! The way from a record to an answer.
 
 mod answer;
+mod beam;
 mod candidates;
 mod exchange;
 mod forms;
@@ -78,6 +79,10 @@ struct Walk<'a> {
     /// The model before its refit, in the first round: what is missing drags parameters to where no effect is itself.
     origin: Fitted,
     ranking: Vec<Ranked>,
+    /// Whether what does not begin smoothly is looked for.
+    joins: bool,
+    /// The candidates of the first round, the nearest first.
+    firsts: Vec<Candidate>,
     /// What is given and not free went far from there when it was a little loose: names and given values.
     strayed: Vec<(String, f64)>,
     /// The last model before what had strayed in it was held.
@@ -138,6 +143,8 @@ fn walked(rig: &Rig, data: &Data, others: &[Data], options: &Options) -> Result<
         given: fixed.clone(),
         origin,
         ranking: Vec::new(),
+        joins: true,
+        firsts: Vec::new(),
         strayed,
         before_held: None,
         others,
@@ -236,6 +243,11 @@ impl Walk<'_> {
         self.board.judged(&rig, None)
     }
 
+    /// Whether no friction is told of.
+    fn bare(&self) -> bool {
+        self.given.friction.name == "none" && self.given.friction.sigma_2 == 0.0
+    }
+
     /// Effect after effect, for as long as there is one more.
     fn rounds(
         &mut self,
@@ -244,8 +256,8 @@ impl Walk<'_> {
         start: &Gram,
     ) -> Result<Vec<Found>, FitError> {
         let mut effects: Vec<Found> = Vec::new();
-        // Where no friction is told of, its two plain parts are no effects beside others.
-        let bare = self.given.friction.name == "none" && self.given.friction.sigma_2 == 0.0;
+        // Its two plain parts are no effects beside others then.
+        let bare = self.bare();
         let most = options.most + if bare { PLAIN } else { 0 };
         while effects.len() < most {
             let round = effects.len();
@@ -277,7 +289,7 @@ impl Walk<'_> {
         Ok(effects)
     }
 
-    /// The effects once more, beside each other.
+    /// The effects once more, beside each other, and others in their place.
     fn looked_over(
         &mut self,
         effects: &mut Vec<Found>,
@@ -287,9 +299,13 @@ impl Walk<'_> {
         if self.turned.is_some() {
             return Ok(());
         }
-        self.drop_each(effects)?;
         let others = std::mem::take(&mut self.others);
+        self.drop_each(effects)?;
         self.exchange_each(effects, context, options)?;
+        if self.widened(effects, context, options)? {
+            self.drop_each(effects)?;
+            self.exchange_each(effects, context, options)?;
+        }
         self.others = others;
         Ok(())
     }
@@ -315,7 +331,7 @@ impl Walk<'_> {
         }
         // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.
         let least = if round == 0 { ABOVE } else { NOTHING };
-        let joins = now.level() > least && !self.explained(now.level());
+        let joins = self.joins && now.level() > least && !self.explained(now.level());
         if joins && !all.iter().any(|c| self.down(&now, c, context)) {
             let joints = self.begun(self.points()[0], context);
             all.extend(self.finely(joints)?);
@@ -327,6 +343,9 @@ impl Walk<'_> {
         all.extend(self.finely(others)?);
         let rated = self.rated(all, context);
         self.rank(&rated, (round, &now));
+        if round == 0 {
+            self.keep_firsts(&rated);
+        }
         let Some((best, found)) = found(&now, &rated, round) else { return Ok(None) };
         // What takes away the little that a play leaves may be what its own minimum besides the best leaves.
         let anew = self.joint_anew(&now, &best.fitted, context)?;

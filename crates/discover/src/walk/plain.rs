@@ -87,7 +87,7 @@ impl Walk<'_> {
 }
 
 /// A part of friction as it is found beside the other: of what that leaves `alone` so much is gone with both.
-fn part(kind: Kind, [alone, left]: [&Judged; 2], t: f64) -> Found {
+pub(super) fn part(kind: Kind, [alone, left]: [&Judged; 2], t: f64) -> Found {
     let name = kind.about().name;
     Found {
         name,

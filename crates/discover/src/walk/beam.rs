@@ -1,0 +1,154 @@
+//! Other first effects than the one that was nearest: two effects together may look like a third, which then is found
+//! first and has no right beside either of them.
+
+use super::{
+    ALIKE, GROSS, Walk,
+    answer::MORE,
+    named::{LEAST, MOST, Rated, SURE, shows},
+    plain::part,
+    settled,
+};
+use crate::{
+    decide::{Judged, shrink},
+    model::Candidate,
+    verdict::{Found, Options, name},
+};
+use identify::{effects::Context, fit::FitError};
+
+/// So many first effects are begun with, that of the answer among them.
+const WIDE: usize = 3;
+
+impl Walk<'_> {
+    /// Keeps the first effects beside which another may be found, the nearest first.
+    pub(super) fn keep_firsts(&mut self, rated: &[Rated]) {
+        let plausible = rated.iter().filter(|r| r.plausible);
+        self.firsts = plausible.map(|r| r.candidate.clone()).collect();
+    }
+
+    /// Where several effects were found, or what was found does not explain all, two others of which another goes first,
+    /// if these are better; whether they are.
+    pub(super) fn widened(
+        &mut self,
+        effects: &mut Vec<Found>,
+        context: &Context,
+        options: &Options,
+    ) -> Result<bool, FitError> {
+        let firsts = std::mem::take(&mut self.firsts);
+        let explained = self.leaves(&self.best) < MORE;
+        if self.bare() || options.most < 2 || explained && effects.len() < 2 {
+            return Ok(false);
+        }
+        // A play is looked for beside what is nearest alone: that takes as long as all else.
+        self.joins = false;
+        // Beside what explains all only what is a good part of it alone.
+        let part = |c: &&Candidate| {
+            !explained || shrink(self.refit, self.judged(&c.fitted.blocks).level()) > MOST
+        };
+        let taken = effects.first().map(|first| first.name);
+        let others_first = |c: &&Candidate| Some(name(c.kind)) != taken && part(c);
+        let firsts: Vec<Candidate> =
+            firsts.iter().take(WIDE).filter(others_first).cloned().collect();
+        let (ranked, mut better) = (self.ranking.len(), false);
+        for first in firsts {
+            let before = (self.board.clone(), self.best.clone(), self.origin.clone());
+            let pair = self.begun_with(&first, context, options)?;
+            self.ranking.truncate(ranked);
+            let [then, now] = [&before.1, &self.best].map(|f| self.judged(&f.blocks));
+            let explains = self.leaves(&self.best) < MORE;
+            let counts = |pair: &Vec<Found>| {
+                (explained || explains) && takes(&then, &now, pair.len() < effects.len())
+            };
+            if let Some(pair) = pair.filter(counts) {
+                *effects = pair;
+                better = true;
+                break;
+            }
+            (self.board, self.best, self.origin) = before;
+        }
+        self.joins = true;
+        Ok(better)
+    }
+
+    /// This effect and another one that is surely there beside it, if there is one; the last model then has both.
+    fn begun_with(
+        &mut self,
+        first: &Candidate,
+        context: &Context,
+        options: &Options,
+    ) -> Result<Option<Vec<Found>>, FitError> {
+        self.ended_at(&first.fitted, options.seed)?;
+        self.origin = self.beside_given()?;
+        let Some(second) = self.step(context, options, (1, None))? else { return Ok(None) };
+        self.ended_at(&self.best.clone(), options.seed)?;
+        let alone = self.without(&self.best, name(first.kind))?;
+        let [alone, both] = [&alone, &self.best].map(|f| self.judged(&f.blocks));
+        let own = part(first.kind, [&alone, &both], alone.against(&both));
+        Ok(shows(&alone, &both, 1).then(|| vec![own, second]))
+    }
+
+    /// The last model is this one where it ends.
+    fn ended_at(&mut self, fitted: &crate::board::Fitted, seed: u64) -> Result<(), FitError> {
+        self.best = settled(&mut self.board, fitted.clone(), seed)?;
+        self.begun_anew()?;
+        self.near_the_floor(GROSS)
+    }
+}
+
+/// Whether one model takes the place of that from then: it is surely nearer, or as near with `fewer` effects.
+fn takes(then: &Judged, now: &Judged, fewer: bool) -> bool {
+    let nearer = then.against(now) > SURE && then.gained(now) > LEAST;
+    nearer || fewer && now.level() < ALIKE * then.level()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Judged, takes};
+    use crate::{
+        model::Candidate,
+        walk::made::{BIAS, context, data, rig, walk, with},
+    };
+    use identify::effects::Kind;
+
+    /// How much drag the data has besides [N·s²/m²].
+    const DRAG: f64 = 0.05;
+
+    #[test]
+    fn two_effects_of_which_another_goes_first_are_found() {
+        let mut data = data();
+        for (u, t) in data.input.iter_mut().zip(&data.time) {
+            let v = 2.0 * (2.0 * t).cos();
+            *u += DRAG * v * v.abs();
+        }
+        let found = |firsts: &[(Kind, f64)]| {
+            let mut walk = walk(&rig(2.0), &data, &[]);
+            let first = |(kind, amount): &(Kind, f64)| {
+                let fitted = walk.board.judged(&with(&rig(2.0), *kind, &[*amount]), None);
+                Candidate { kind: *kind, fitted: fitted.unwrap() }
+            };
+            walk.firsts = firsts.iter().map(first).collect();
+            let (context, mut effects) = (context(&walk), Vec::new());
+            walk.refit = walk.judged(&walk.best.blocks).level();
+            let better = walk.widened(&mut effects, &context, &crate::Options::default()).unwrap();
+            let names: Vec<&str> = effects.iter().map(|found| found.name).collect();
+            let left = walk.judged(&walk.best.blocks).level();
+            (better, names, walk.best.rig.value("current_bias.bias"), left)
+        };
+        let (better, names, bias, left) = found(&[(Kind::CurrentBias, 0.1)]);
+        assert!(better && names == ["current_bias", "quadratic_drag"] && left < 1.1, "{names:?}");
+        assert!((bias.unwrap() - BIAS).abs() < 0.01, "{bias:?}");
+        let (better, names, bias, left) = found(&[]);
+        assert!(!better && names.is_empty() && bias.is_none() && left > 2.0, "{left}");
+    }
+
+    #[test]
+    fn what_is_surely_nearer_or_simpler_takes_the_place() {
+        let of = |mean: f64| Judged {
+            blocks: (0..20).map(|k| mean + 0.01 * f64::from(k % 2)).collect(),
+            counts: vec![300.0; 20],
+        };
+        assert!(takes(&of(2.0), &of(1.9), false) && !takes(&of(1.9), &of(2.0), false));
+        // A thousandth less on 6000 residuals is worth no name.
+        assert!(!takes(&of(1.0), &of(0.999), false));
+        assert!(takes(&of(1.9), &of(2.0), true) && !takes(&of(1.0), &of(2.0), true));
+    }
+}
