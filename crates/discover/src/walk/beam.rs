@@ -9,6 +9,7 @@ use super::{
     settled,
 };
 use crate::{
+    board::Fitted,
     decide::{Judged, shrink},
     model::Candidate,
     verdict::{Found, Options, name},
@@ -21,12 +22,12 @@ const WIDE: usize = 3;
 impl Walk<'_> {
     /// Keeps the first effects beside which another may be found, the nearest first.
     pub(super) fn keep_firsts(&mut self, rated: &[Rated]) {
-        let plausible = rated.iter().filter(|r| r.plausible);
+        let plausible = rated.iter().filter(|r| r.plausible).take(WIDE);
         self.firsts = plausible.map(|r| r.candidate.clone()).collect();
     }
 
     /// Where several effects were found, or what was found does not explain all, two others of which another goes first,
-    /// if these are better; whether they are.
+    /// if these explain all and are better; whether they are. It is asked once.
     pub(super) fn widened(
         &mut self,
         effects: &mut Vec<Found>,
@@ -40,24 +41,21 @@ impl Walk<'_> {
         }
         // A play is looked for beside what is nearest alone: that takes as long as all else.
         self.joins = false;
-        // Beside what explains all only what is a good part of it alone.
-        let part = |c: &&Candidate| {
-            !explained || shrink(self.refit, self.judged(&c.fitted.blocks).level()) > MOST
-        };
         let taken = effects.first().map(|first| first.name);
-        let others_first = |c: &&Candidate| Some(name(c.kind)) != taken && part(c);
-        let firsts: Vec<Candidate> =
-            firsts.iter().take(WIDE).filter(others_first).cloned().collect();
         let (ranked, mut better) = (self.ranking.len(), false);
-        for first in firsts {
+        for first in firsts.iter().filter(|c| Some(name(c.kind)) != taken) {
+            let alone = self.judged(&first.fitted.blocks).level();
+            // Beside what explains all only what is a good part of it alone.
+            if explained && shrink(self.refit, alone) <= MOST {
+                continue;
+            }
             let before = (self.board.clone(), self.best.clone(), self.origin.clone());
-            let pair = self.begun_with(&first, context, options)?;
+            let pair = self.begun_with(first, context, options)?;
             self.ranking.truncate(ranked);
             let [then, now] = [&before.1, &self.best].map(|f| self.judged(&f.blocks));
             let explains = self.leaves(&self.best) < MORE;
-            let counts = |pair: &Vec<Found>| {
-                (explained || explains) && takes(&then, &now, pair.len() < effects.len())
-            };
+            let counts =
+                |pair: &Vec<Found>| explains && takes(&then, &now, pair.len() < effects.len());
             if let Some(pair) = pair.filter(counts) {
                 *effects = pair;
                 better = true;
@@ -76,10 +74,10 @@ impl Walk<'_> {
         context: &Context,
         options: &Options,
     ) -> Result<Option<Vec<Found>>, FitError> {
-        self.ended_at(&first.fitted, options.seed)?;
+        self.ended_at(first.fitted.clone(), options.seed)?;
         self.origin = self.beside_given()?;
         let Some(second) = self.step(context, options, (1, None))? else { return Ok(None) };
-        self.ended_at(&self.best.clone(), options.seed)?;
+        self.ended_at(self.best.clone(), options.seed)?;
         let alone = self.without(&self.best, name(first.kind))?;
         let [alone, both] = [&alone, &self.best].map(|f| self.judged(&f.blocks));
         let own = part(first.kind, [&alone, &both], alone.against(&both));
@@ -87,8 +85,8 @@ impl Walk<'_> {
     }
 
     /// The last model is this one where it ends.
-    fn ended_at(&mut self, fitted: &crate::board::Fitted, seed: u64) -> Result<(), FitError> {
-        self.best = settled(&mut self.board, fitted.clone(), seed)?;
+    fn ended_at(&mut self, fitted: Fitted, seed: u64) -> Result<(), FitError> {
+        self.best = settled(&mut self.board, fitted, seed)?;
         self.begun_anew()?;
         self.near_the_floor(GROSS)
     }

@@ -19,9 +19,6 @@ use identify::{
 };
 use rayon::prelude::*;
 
-/// Mean squared residual, in units of the floor, up to which a model is near.
-const NEARBY: f64 = 3.0;
-
 /// What is worth a refit takes so much off the sum of squares, in units of the floor: five standard errors are 25.
 const GAIN: f64 = 12.0;
 
@@ -32,6 +29,9 @@ const FALLS: f64 = 0.01;
 /// So many of the best are worth a refit whatever the judging blocks say, if they gain ten standard errors.
 const FIRST_OF_ALL: usize = 2;
 const SURELY: f64 = 100.0;
+
+/// Mean squared residual, in units of the floor, up to which a model is near.
+const NEARBY: f64 = 3.0;
 
 /// So many more are refitted where the model is far off.
 const BESIDE: usize = 20;

@@ -300,11 +300,12 @@ impl Walk<'_> {
             return Ok(());
         }
         let others = std::mem::take(&mut self.others);
-        self.drop_each(effects)?;
-        self.exchange_each(effects, context, options)?;
-        if self.widened(effects, context, options)? {
+        loop {
             self.drop_each(effects)?;
             self.exchange_each(effects, context, options)?;
+            if !self.widened(effects, context, options)? {
+                break;
+            }
         }
         self.others = others;
         Ok(())
