@@ -1,5 +1,6 @@
 //! The force that a model lacks, over time, with its floor.
 
+use crate::{floor::timed, rest::rested};
 use identify::{
     Rig,
     effects::Channel,
@@ -51,14 +52,21 @@ pub fn residual(rig: &Rig, data: &Data, seed: u64) -> Option<Residual> {
         return None;
     }
     let seen = Signals::of(data)?;
-    if data.force.is_some() {
-        return imposed(rig, data, seen);
-    }
     let model = torque_alone(rig, data);
     let strength = strength(&model, data, &seen.v);
-    let run = |signals: &Signals| signals.run(&model, data, strength);
+    let run = |signals: &Signals| match &data.force {
+        // It rests where its sensor trembles.
+        Some(_) => imposed(rig, &rested(&Data { input: signals.input.clone(), ..data.clone() })),
+        None => signals.run(&model, data, strength),
+    };
     let force = run(&seen)?;
-    let mut squares = vec![0.0; force.len()];
+    // Beside the noise of the force itself one that turns is worth what its time is.
+    let turns = timed(data, Vec::new());
+    let own = |i: usize| match &data.force {
+        Some(seen) => seen.noise.hypot(turns[i][0]),
+        None => 0.0,
+    };
+    let mut squares: Vec<f64> = (0..force.len()).map(|i| own(i).powi(2)).collect();
     for time in 0..TIMES {
         let mut random = ChaCha8Rng::seed_from_u64(seed.wrapping_add(time));
         let other = run(&seen.perturbed(data, &mut random))?;
@@ -87,8 +95,8 @@ pub(crate) struct Left {
 pub(crate) fn left(rig: &Rig, data: &Data) -> Option<Left> {
     let seen = Signals::of(data)?;
     if data.force.is_some() {
-        let Residual { q, v, force, .. } = imposed(rig, data, seen)?;
-        return Some(Left { q, v, force, lag: 0.0 });
+        let force = imposed(rig, data)?;
+        return Some(Left { q: seen.q, v: seen.v, force, lag: 0.0 });
     }
     let model = torque_alone(rig, data);
     let strength = strength(&model, data, &seen.v);
@@ -105,13 +113,11 @@ fn around(data: &Data) -> usize {
     many
 }
 
-/// Under imposed motion: measured less simulated.
-fn imposed(rig: &Rig, data: &Data, seen: Signals) -> Option<Residual> {
+/// Under imposed motion: measured less simulated [N].
+fn imposed(rig: &Rig, data: &Data) -> Option<Vec<f64>> {
     let run = simulate(rig, data, None).ok()?;
     let trace = run.traces.into_iter().next()?;
-    let force = trace.measured.iter().zip(&trace.after).map(|(m, s)| m - s).collect();
-    let floor = vec![data.force.as_ref()?.noise; trace.time.len()];
-    Some(Residual { time: trace.time, q: seen.q, v: seen.v, force, floor })
+    Some(trace.measured.iter().zip(&trace.after).map(|(m, s)| m - s).collect())
 }
 
 /// The model; where the load cells say what the springs do, without what acts on these.
@@ -238,6 +244,44 @@ mod tests {
         let most = left.force.iter().skip(200).fold(0.0, |m: f64, f| m.max(f.abs()));
         let drives = data.input.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
         assert!(most < 0.01 * drives, "{most} N of {drives} N");
+    }
+
+    #[test]
+    fn what_noise_leaves_of_an_imposed_motion_is_its_floor() {
+        // Forth and back with rests between, to 1 µm, and dry friction to 1 mN.
+        let mut random = ChaCha8Rng::seed_from_u64(3);
+        let mut noise = |size: f64| -> f64 {
+            let drawn: f64 = StandardNormal.sample(&mut random);
+            size * drawn
+        };
+        let (mut x, mut last, mut input, mut force) = (0.0, 0.0, Vec::new(), Vec::new());
+        for i in 0..8000 {
+            if i % 200 >= 100 {
+                last = if i % 400 < 200 { 1.0 } else { -1.0 };
+                x += 1e-4 * last;
+            }
+            input.push(x + noise(1e-6));
+            force.push(1.5 * last + noise(1e-3));
+        }
+        let time = (0..8000).map(|i| 0.005 * f64::from(i)).collect();
+        let seen = Seen::new("force", force, 0.0);
+        let driven = Data::driven(time, input, identify::Hold::Linear, seen.clone());
+        let data = Data { displacement: None, force: Some(seen), ..driven };
+        let rig = |f_c: f64| {
+            let text = format!(
+                "title = \"a slide\"\n[plant]\nkind = \"prescribed\"\n[friction]\nname = \"coulomb\"\n\
+                 f_c = {f_c:?}\n[channels]\ntime = \"t\"\ndisplacement = \"x\"\nforce = \"f\"\n"
+            );
+            Rig::parse(&text).unwrap()
+        };
+        // How many of the samples are further off than three standard deviations of noise.
+        let off = |f_c: f64| {
+            let left = residual(&rig(f_c), &data, 1).unwrap();
+            let far = |i: &usize| left.force[*i].abs() > 3.0 * left.floor[*i];
+            (200..8000).filter(far).count()
+        };
+        let (right, wrong) = (off(1.5), off(1.6));
+        assert!(right < 78 && wrong > 4000, "{right} and {wrong} of 7800");
     }
 
     #[test]

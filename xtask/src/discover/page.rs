@@ -143,12 +143,12 @@ fn residual(told: &Told, pictures: &Pictures) -> FitPart {
         vec![FitFigure {
             title: format!("Residual {what} over time"),
             caption: format!(
-                "The {what} that the model lacks, by a motion that is nudged towards the measured one. The grey lines \
-                 stand two standard deviations of what noise alone makes on either side. {}",
+                "The {what} that the model lacks, {}. The grey lines stand two standard deviations of what noise alone \
+                 makes on either side.",
                 if imposed(told) {
-                    "Positive is measured more than simulated."
+                    "as what was measured more than simulated"
                 } else {
-                    "Positive pushes forth."
+                    "by a motion that is nudged towards the measured one; positive pushes forth"
                 }
             ),
             panels,
