@@ -246,9 +246,8 @@ mod tests {
         assert!(most < 0.01 * drives, "{most} N of {drives} N");
     }
 
-    #[test]
-    fn what_noise_leaves_of_an_imposed_motion_is_its_floor() {
-        // Forth and back with rests between, to 1 µm, and dry friction to 1 mN.
+    /// Dry friction of 1.5 N to 1 mN, forth and back with rests between, to so many metres.
+    fn slide(trembles: f64) -> Data {
         let mut random = ChaCha8Rng::seed_from_u64(3);
         let mut noise = |size: f64| -> f64 {
             let drawn: f64 = StandardNormal.sample(&mut random);
@@ -260,28 +259,43 @@ mod tests {
                 last = if i % 400 < 200 { 1.0 } else { -1.0 };
                 x += 1e-4 * last;
             }
-            input.push(x + noise(1e-6));
+            input.push(x + noise(trembles));
             force.push(1.5 * last + noise(1e-3));
         }
         let time = (0..8000).map(|i| 0.005 * f64::from(i)).collect();
         let seen = Seen::new("force", force, 0.0);
         let driven = Data::driven(time, input, identify::Hold::Linear, seen.clone());
-        let data = Data { displacement: None, force: Some(seen), ..driven };
-        let rig = |f_c: f64| {
-            let text = format!(
-                "title = \"a slide\"\n[plant]\nkind = \"prescribed\"\n[friction]\nname = \"coulomb\"\n\
-                 f_c = {f_c:?}\n[channels]\ntime = \"t\"\ndisplacement = \"x\"\nforce = \"f\"\n"
-            );
-            Rig::parse(&text).unwrap()
-        };
+        Data { displacement: None, force: Some(seen), ..driven }
+    }
+
+    fn slides(f_c: f64) -> Rig {
+        let text = format!(
+            "title = \"a slide\"\n[plant]\nkind = \"prescribed\"\n[friction]\nname = \"coulomb\"\n\
+             f_c = {f_c:?}\n[channels]\ntime = \"t\"\ndisplacement = \"x\"\nforce = \"f\"\n"
+        );
+        Rig::parse(&text).unwrap()
+    }
+
+    #[test]
+    fn what_noise_leaves_of_an_imposed_motion_is_its_floor() {
+        let data = slide(1e-6);
         // How many of the samples are further off than three standard deviations of noise.
         let off = |f_c: f64| {
-            let left = residual(&rig(f_c), &data, 1).unwrap();
+            let left = residual(&slides(f_c), &data, 1).unwrap();
             let far = |i: &usize| left.force[*i].abs() > 3.0 * left.floor[*i];
             (200..8000).filter(far).count()
         };
         let (right, wrong) = (off(1.5), off(1.6));
         assert!(right < 78 && wrong > 4000, "{right} and {wrong} of 7800");
+    }
+
+    #[test]
+    fn the_floor_of_a_force_that_turns_knows_when_it_turns() {
+        // Without a tremble the force turns by 3 N at one sample, and when it does is known to a part of the sampling
+        // time; the mean of 21 samples has that one.
+        let left = residual(&slides(1.5), &slide(0.0), 1).unwrap();
+        let (turns, slides) = (left.floor[500], left.floor[550]);
+        assert!(turns > 0.04 && slides < 2e-3, "{turns} N and {slides} N");
     }
 
     #[test]

@@ -105,37 +105,53 @@ mod tests {
         model::Candidate,
         walk::made::{BIAS, context, data, rig, walk, with},
     };
-    use identify::effects::Kind;
+    use identify::{effects::Kind, fit::Data};
 
     /// How much drag the data has besides [N·s²/m²].
     const DRAG: f64 = 0.05;
 
-    #[test]
-    fn two_effects_of_which_another_goes_first_are_found() {
+    /// The data with a drag and more of a force [N].
+    fn dragged(more: impl Fn(f64) -> f64) -> Data {
         let mut data = data();
         for (u, t) in data.input.iter_mut().zip(&data.time) {
             let v = 2.0 * (2.0 * t).cos();
-            *u += DRAG * v * v.abs();
+            *u += DRAG * v * v.abs() + more(*t);
         }
-        let found = |firsts: &[(Kind, f64)]| {
-            let mut walk = walk(&rig(2.0), &data, &[]);
-            let first = |(kind, amount): &(Kind, f64)| {
-                let fitted = walk.board.judged(&with(&rig(2.0), *kind, &[*amount]), None);
-                Candidate { kind: *kind, fitted: fitted.unwrap() }
-            };
-            walk.firsts = firsts.iter().map(first).collect();
-            let (context, mut effects) = (context(&walk), Vec::new());
-            walk.refit = walk.judged(&walk.best.blocks).level();
-            let better = walk.widened(&mut effects, &context, &crate::Options::default()).unwrap();
-            let names: Vec<&str> = effects.iter().map(|found| found.name).collect();
-            let left = walk.judged(&walk.best.blocks).level();
-            (better, names, walk.best.rig.value("current_bias.bias"), left)
+        data
+    }
+
+    /// Whether two effects took the place, their names, the bias found, and what is left, begun with each of these.
+    fn found(data: &Data, firsts: &[(Kind, f64)]) -> (bool, Vec<&'static str>, Option<f64>, f64) {
+        let mut walk = walk(&rig(2.0), data, &[]);
+        let first = |(kind, amount): &(Kind, f64)| {
+            let fitted = walk.board.judged(&with(&rig(2.0), *kind, &[*amount]), None);
+            Candidate { kind: *kind, fitted: fitted.unwrap() }
         };
-        let (better, names, bias, left) = found(&[(Kind::CurrentBias, 0.1)]);
+        walk.firsts = firsts.iter().map(first).collect();
+        let (context, mut effects) = (context(&walk), Vec::new());
+        walk.refit = walk.judged(&walk.best.blocks).level();
+        let better = walk.widened(&mut effects, &context, &crate::Options::default()).unwrap();
+        let names = effects.iter().map(|found| found.name).collect();
+        let left = walk.judged(&walk.best.blocks).level();
+        (better, names, walk.best.rig.value("current_bias.bias"), left)
+    }
+
+    #[test]
+    fn two_effects_of_which_another_goes_first_are_found() {
+        let data = dragged(|_| 0.0);
+        let (better, names, bias, left) = found(&data, &[(Kind::CurrentBias, 0.1)]);
         assert!(better && names == ["current_bias", "quadratic_drag"] && left < 1.1, "{names:?}");
         assert!((bias.unwrap() - BIAS).abs() < 0.01, "{bias:?}");
-        let (better, names, bias, left) = found(&[]);
+        let (better, names, bias, left) = found(&data, &[]);
         assert!(!better && names.is_empty() && bias.is_none() && left > 2.0, "{left}");
+    }
+
+    #[test]
+    fn two_effects_that_do_not_explain_all_are_not_taken() {
+        // What no effect of the library has stays.
+        let data = dragged(|t| 0.2 * (11.0 * t).sin());
+        let (better, names, ..) = found(&data, &[(Kind::CurrentBias, 0.1)]);
+        assert!(!better && names.is_empty(), "{names:?}");
     }
 
     #[test]
@@ -145,6 +161,12 @@ mod tests {
             counts: vec![300.0; 20],
         };
         assert!(takes(&of(2.0), &of(1.9), false) && !takes(&of(1.9), &of(2.0), false));
+        // One block of twenty that is far better, where all others are a little worse, says nothing.
+        let but_one = |first: f64, others: f64| Judged {
+            blocks: (0..20).map(|k| if k == 1 { first } else { others }).collect(),
+            counts: vec![300.0; 20],
+        };
+        assert!(!takes(&but_one(9.0, 1.0), &but_one(1.0, 1.01), false));
         // A thousandth less on 6000 residuals is worth no name.
         assert!(!takes(&of(1.0), &of(0.999), false));
         assert!(takes(&of(1.9), &of(2.0), true) && !takes(&of(1.0), &of(2.0), true));
