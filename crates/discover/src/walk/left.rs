@@ -20,6 +20,10 @@ const TOGETHER: f64 = 12.0;
 const STEADY: f64 = 1.5;
 const TOLD: f64 = 0.02;
 
+/// Nor is it louder: noise of first order that hangs together over twelve samples, of which 0.846 lasts from one to the
+/// next, is in its square eleven times what its differences of seventh order tell, the least of those that are asked.
+const LOUDEST: f64 = 11.0;
+
 /// So many samples later nothing is counted that hangs together.
 const LATEST: usize = 120;
 
@@ -77,7 +81,9 @@ impl Walk<'_> {
             self.judging_of(&blocks).mostly() > MORE
         };
         let noise = |c: usize| {
-            c < of && run(&self.channel(fitted, c)) < STEADY && {
+            let blocks = self.channel(fitted, c);
+            let quiet = c < of && self.judging_of(&blocks).mostly() < LOUDEST;
+            quiet && run(&blocks) < STEADY && {
                 let rest = self.rest(fitted, (c, of));
                 rest.together < TOGETHER && rest.told < TOLD
             }
@@ -216,6 +222,22 @@ mod tests {
         // What hangs together as long as a window is no noise.
         let (mostly, left) = leaves(0.99, &right);
         assert!(mostly < 1.2 || left >= mostly, "{left} of {mostly}");
+    }
+
+    #[test]
+    fn what_is_far_louder_than_its_differences_tell_is_no_noise() {
+        let right = made::with(&made::rig(2.0), Kind::CurrentBias, &[made::BIAS]);
+        let data = made::data();
+        let walk = made::walk(&right, &data, &[]);
+        let louder = |times: f64| {
+            let mut fitted = walk.best.clone();
+            fitted.blocks.iter_mut().flatten().for_each(|sum| *sum *= times * times);
+            let rows = fitted.pieces.iter_mut().flat_map(|piece| &mut piece.residuals);
+            rows.for_each(|row| *row *= times);
+            walk.leaves(&fitted)
+        };
+        let (quiet, loud) = (louder(2.5), louder(4.0));
+        assert!(quiet <= 1.0 && loud > 12.0, "{quiet} and {loud} floors");
     }
 
     #[test]
