@@ -251,7 +251,7 @@ fn tried_at(
 const OFF: f64 = 0.1;
 
 /// What holds the free parameters near their values.
-fn prior(problem: &Problem<'_>) -> Vec<f64> {
+pub(crate) fn prior(problem: &Problem<'_>) -> Vec<f64> {
     let loose = |name: &str| problem.priors.iter().find(|(n, ..)| n == name).map(|p| p.2.powi(-2));
     let held = problem.free.iter().map(|free| match free.scale {
         _ if loose(&free.name).is_some() => loose(&free.name).unwrap_or(0.0),
@@ -289,7 +289,7 @@ fn gram(columns: &[DMatrix<f64>], residual: &DVector<f64>) -> DMatrix<f64> {
 }
 
 /// The derivatives of every block's residuals, those of the load cells last.
-fn jacobians(
+pub(crate) fn jacobians(
     board: &Board<'_>,
     problem: &Problem<'_>,
     x: &[f64],
@@ -298,9 +298,9 @@ fn jacobians(
     let slopes = problem.all_slopes(x, pieces);
     let loads = problem.cells(x).1;
     let channels = problem.channels();
-    let samples: usize = board.windows.iter().map(Window::len).sum();
+    let windows = windows(board, problem);
     let one = |k: usize| {
-        let window = &board.windows[k];
+        let window = &windows[k];
         let n = window.len();
         let own = if board.imposed() {
             slopes[0].jacobian.rows(window.first, n).into_owned()
@@ -314,16 +314,16 @@ fn jacobians(
         let mut all = DMatrix::zeros(rows + 2 * n, own.ncols());
         all.rows_mut(0, rows).copy_from(&own);
         for cell in 0..2 {
-            let from = cell * samples + window.first - board.windows[0].first;
+            let from = cell_row(windows, k, cell);
             all.rows_mut(rows + cell * n, n).copy_from(&loads.rows(from, n));
         }
         all
     };
-    (0..board.windows.len()).map(one).collect()
+    (0..windows.len()).map(one).collect()
 }
 
 /// Every block's residuals in the same order.
-fn residuals(
+pub(crate) fn residuals(
     board: &Board<'_>,
     problem: &Problem<'_>,
     x: &[f64],
@@ -331,9 +331,9 @@ fn residuals(
 ) -> Vec<DVector<f64>> {
     let loads = problem.cells(x).0;
     let channels = problem.channels();
-    let samples: usize = board.windows.iter().map(Window::len).sum();
+    let windows = windows(board, problem);
     let one = |k: usize| {
-        let window = &board.windows[k];
+        let window = &windows[k];
         let n = window.len();
         let mut all: Vec<f64> = if board.imposed() {
             pieces[0].residuals[window.first..window.end].to_vec()
@@ -342,11 +342,38 @@ fn residuals(
         };
         if !loads.is_empty() {
             for cell in 0..2 {
-                let from = cell * samples + window.first - board.windows[0].first;
+                let from = cell_row(windows, k, cell);
                 all.extend_from_slice(&loads[from..from + n]);
             }
         }
         DVector::from_vec(all)
     };
-    (0..board.windows.len()).map(one).collect()
+    (0..windows.len()).map(one).collect()
+}
+
+/// The row with which a load cell begins in a window, the cells after one another.
+fn cell_row(windows: &[Window], window: usize, cell: usize) -> usize {
+    let before = |windows: &[Window]| windows.iter().map(Window::len).sum::<usize>();
+    cell * before(windows) + before(&windows[..window])
+}
+
+/// The windows of a problem; those of the board where the motion is imposed, which is one run.
+fn windows<'a>(board: &'a Board<'_>, problem: &'a Problem<'_>) -> &'a [Window] {
+    if board.imposed() { &board.windows } else { &problem.windows }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Window, cell_row};
+    use crate::{board::Board, walk::made};
+
+    #[test]
+    fn the_cells_rows_of_some_windows_follow_one_another() {
+        let (rig, data) = (made::rig(2.0), made::data());
+        let board = Board::of(&rig, &data, 1, Vec::new()).unwrap();
+        let some: Vec<Window> = [1, 4, 6].map(|w| board.windows[w].clone()).into();
+        let [a, b, c] = [0, 1, 2].map(|w| some[w].len());
+        let rows = [0, 1].map(|cell| [0, 1, 2].map(|w| cell_row(&some, w, cell)));
+        assert_eq!(rows, [[0, a, a + b], [a + b + c, 2 * a + b + c, 2 * a + 2 * b + c]]);
+    }
 }

@@ -1,9 +1,11 @@
 //! The blocks of a record, which of them are fitted and which judge.
 
+mod ahead;
 mod loose;
 mod race;
 mod steps;
 
+pub(crate) use ahead::Ahead;
 pub(crate) use loose::{loose, loosened};
 pub(crate) use steps::{FINE, ROUGH};
 

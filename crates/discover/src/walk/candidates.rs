@@ -1,7 +1,7 @@
 //! The effects that are worth a refit, and what a refit makes of them.
 
 use super::{
-    DOWN, GROSS, Walk,
+    GROSS, Walk,
     named::{NOTHING, Rated},
 };
 use crate::{
@@ -14,7 +14,7 @@ use crate::{
 };
 use identify::{
     Rig,
-    effects::{Context, Kind, LAWS},
+    effects::{Context, Kind},
     fit::{FitError, search::Patience},
 };
 use rayon::prelude::*;
@@ -30,15 +30,12 @@ const FALLS: f64 = 0.01;
 const FIRST_OF_ALL: usize = 2;
 const SURELY: f64 = 100.0;
 
-/// Mean squared residual, in units of the floor, up to which a model is near.
-const NEARBY: f64 = 3.0;
-
 /// So many more are refitted where the model is far off.
 const BESIDE: usize = 20;
 
 /// Enough to come near from far off; after so many simulations on short windows so many go on. A race on the long ones
 /// leaves behind what is better in the end.
-const AFRESH: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 16 };
+pub(super) const AFRESH: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 16 };
 const HEAT: usize = 6;
 const KEPT: usize = 8;
 
@@ -48,24 +45,6 @@ const HEATS: [(usize, usize); 2] = [(3, 14), (HEAT, KEPT)];
 /// Of those that go on so many do at once; what leaves so many times what the nearest does on short windows is behind.
 const AT_ONCE: usize = 2;
 const BEHIND: f64 = 2.0;
-
-/// The same for what does not begin smoothly.
-const BEGUN: [(usize, usize); 3] = [(2, 10), (4, 4), (HEAT, 2)];
-
-/// What does not begin smoothly and leaves more than a right model is begun once more from so many times its amount.
-const AROUND: [f64; 4] = [0.8, 0.9, 1.1, 1.25];
-
-/// And from so many times its load.
-const LOADS: [f64; 2] = [0.5, 2.0];
-
-/// So is one of another kind that leaves no more than so many times what the nearest does.
-const RIVAL: f64 = 1.3;
-
-/// Of the logarithm of what a window leaves, what does not begin smoothly takes away so much at least.
-const NEARER: f64 = 0.02;
-
-/// What is begun once more is as good as a model with an effect more if it leaves no more than so many times as much.
-pub(super) const AS_NEAR: f64 = 1.005;
 
 /// Near the floor so few are worth a look.
 const FEW: usize = 2;
@@ -126,90 +105,6 @@ impl Walk<'_> {
         Ok(all)
     }
 
-    /// What does not begin smoothly, and so has no score, refitted from a `point` by way of short windows, from each
-    /// amount and shape at which it is tried.
-    pub(super) fn begun(&self, point: &Fitted, context: &Context) -> Vec<Candidate> {
-        let mut near = Vec::new();
-        let now = self.judged(&self.best.blocks);
-        // What is near shows on long windows where it goes from there; on short ones the starts take up what is left.
-        let board = if now.level() < NEARBY { &self.board } else { &self.short };
-        for (kind, probes) in gram::lacking(&self.board, &self.best.rig, context) {
-            let one = |(probe, tried): (&Vec<f64>, &f64)| {
-                let values = gram::tried(kind, probe, *tried, context);
-                (kind, model::with(point, &Scored::unscored(kind, values)))
-            };
-            let each = probes.iter().flat_map(|p| kind.tried().iter().map(move |t| (p, t)));
-            let all: Vec<(Kind, Rig)> = each.map(one).collect();
-            near.extend(board.raced(&all, &BEGUN, &AFRESH));
-        }
-        if now.level() > GROSS {
-            // What shows so much on long windows does on short ones, beside the model as it is, of whatever kind.
-            let without =
-                self.short.raced(&[(Kind::Compliance, point.rig.clone())], &BEGUN, &AFRESH);
-            let most = without.first().map_or(f64::INFINITY, |(far, ..)| far - NEARER);
-            near.retain(|(far, ..)| *far < most);
-        }
-        self.longer(near, (&now, context))
-    }
-
-    /// What does not begin smoothly once more, if it is the nearest of all and not down at the floor, and its rivals of
-    /// another kind.
-    pub(super) fn beside(&self, all: &[Candidate], context: &Context) -> Vec<Candidate> {
-        let Some((best, least)) = self.nearest(all) else { return Vec::new() };
-        if best.kind.tried().is_empty() || least < DOWN {
-            return Vec::new();
-        }
-        let joints = LAWS.iter().filter(|kind| !kind.tried().is_empty());
-        let rivals = joints.filter_map(|kind| {
-            let own: Vec<Candidate> = all.iter().filter(|c| c.kind == *kind).cloned().collect();
-            let (nearest, level) = self.nearest(&own)?;
-            (level < RIVAL * least).then(|| (*kind, nearest.fitted.rig.clone()))
-        });
-        let rivals: Vec<(Kind, Rig)> = rivals.collect();
-        rivals.iter().flat_map(|(kind, rig)| self.around(*kind, rig, context)).collect()
-    }
-
-    /// What does not begin smoothly once more from a little more and a little less of it than `rig` has, and from another
-    /// load: wherever the load meets its tooth between other samples there is a minimum of its own.
-    fn around(&self, kind: Kind, rig: &Rig, context: &Context) -> Vec<Candidate> {
-        let about = kind.about();
-        let with = |(key, share): (&str, &f64)| {
-            let name = format!("{}.{key}", about.name);
-            let mut rig = rig.clone();
-            let value = rig.value(&name).unwrap_or(0.0);
-            identify::fit::binding::set(&mut rig, &name, share * value);
-            (kind, rig)
-        };
-        let amounts = AROUND.iter().map(|share| (about.keys[0].name, share));
-        let loads = LOADS.iter().map(|share| ("ratio", share));
-        let all: Vec<(Kind, Rig)> = amounts.chain(loads).map(with).collect();
-        let now = self.judged(&self.best.blocks);
-        self.longer(self.short.raced(&all, &[(HEAT, 2)], &AFRESH), (&now, context))
-    }
-
-    /// The last model, if it is near the floor and has what does not begin smoothly, with that begun once more: if it
-    /// then leaves no more than what has an effect more, `found`.
-    pub(super) fn joint_anew(
-        &self,
-        now: &Judged,
-        found: &Fitted,
-        context: &Context,
-    ) -> Result<Option<Fitted>, FitError> {
-        let has = |kind: &&Kind| {
-            let name = kind.about().name;
-            !kind.tried().is_empty() && self.best.rig.effects.iter().any(|e| e.name == name)
-        };
-        let Some(kind) = LAWS.iter().find(has).filter(|_| now.level() < NOTHING) else {
-            return Ok(None);
-        };
-        let all = self.around(*kind, &self.best.rig, context);
-        let Some((nearest, _)) = self.nearest(&all) else { return Ok(None) };
-        let anew = self.ended(nearest.fitted.clone())?;
-        let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
-        let as_good = level(&anew) < AS_NEAR * level(found);
-        Ok(Some(anew).filter(|_| as_good))
-    }
-
     /// The effects refitted from a `point` far from the truth by way of short windows; those go on that are near there.
     fn afresh(
         &self,
@@ -224,7 +119,7 @@ impl Walk<'_> {
 
     /// What came near on short windows, refitted on the long ones, the nearest first; what is far behind there is not
     /// where one of these explains all.
-    fn longer(
+    pub(super) fn longer(
         &self,
         mut near: Vec<(f64, Kind, Rig)>,
         (now, context): (&Judged, &Context),

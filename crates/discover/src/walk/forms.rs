@@ -1,6 +1,6 @@
 //! The nearest effect in its other forms, where the one in which it was looked for does not do.
 
-use super::{ABOVE, FIRST, Walk, candidates::AS_NEAR};
+use super::{ABOVE, FIRST, Walk, joints::AS_NEAR};
 use crate::{board::Fitted, model::Candidate};
 use identify::{
     Rig,

@@ -15,10 +15,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 /// The force that the rig's equation does not ask for [N].
-pub(super) const BIAS: f64 = 0.3;
+pub(crate) const BIAS: f64 = 0.3;
 
 /// A mass of `mass` [kg] on a spring of 3 N/m.
-pub(super) fn rig(mass: f64) -> Rig {
+pub(crate) fn rig(mass: f64) -> Rig {
     let text = format!(
         "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = {mass:?}\nstiffness = 3.0\n\
          [friction]\nname = \"none\"\nsigma_2 = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n"
@@ -67,7 +67,7 @@ pub(super) fn walk<'a>(rig: &Rig, data: &'a Data, loose: &[(String, f64)]) -> Wa
 }
 
 /// The same with an effect.
-pub(super) fn with(rig: &Rig, kind: Kind, values: &[f64]) -> Rig {
+pub(crate) fn with(rig: &Rig, kind: Kind, values: &[f64]) -> Rig {
     let mut rig = rig.clone();
     crate::gram::with(&mut rig, kind, &[], 0);
     let about = kind.about();

@@ -6,6 +6,7 @@ mod candidates;
 mod exchange;
 mod forms;
 mod holds;
+mod joints;
 mod left;
 #[cfg(test)]
 pub(crate) mod made;
@@ -334,7 +335,7 @@ impl Walk<'_> {
         let least = if round == 0 { ABOVE } else { NOTHING };
         let joins = self.joins && now.level() > least && !self.explained(now.level());
         if joins && !all.iter().any(|c| self.down(&now, c, context)) {
-            let joints = self.begun(self.points()[0], context);
+            let joints = self.begun(context);
             all.extend(self.finely(joints)?);
             let beside = self.beside(&all, context);
             all.extend(self.finely(beside)?);

@@ -7,7 +7,7 @@ use crate::march::Real;
 pub(super) struct Backlash;
 
 /// The time in which teeth give way, of the sampling time: they are stiffer than what such a drive is sampled for.
-const TEETH: f64 = 0.1;
+const TEETH: [f64; 2] = [0.1, 0.25];
 
 impl Law for Backlash {
     const ABOUT: About = About {
@@ -25,13 +25,13 @@ impl Law for Backlash {
             GIVES,
         ],
         probes: |c| {
-            let own = |(ratio, rubs, encoder): (f64, f64, f64)| {
-                vec![ratio, rubs * c.force, TEETH * c.sample_time, encoder]
+            let load = [(0.05, 0.01), (0.05, 0.1), (0.25, 0.01), (0.25, 0.1)].map(|own| (own, 1.0));
+            let motor = [(0.3, 0.01), (0.3, 0.1)].map(|own| (own, AT_MOTOR));
+            let all = load.into_iter().chain(motor.into_iter().filter(|_| c.hidden));
+            let own = |((ratio, rubs), encoder): ((f64, f64), f64)| {
+                TEETH.map(|teeth| vec![ratio, rubs * c.force, teeth * c.sample_time, encoder])
             };
-            let load = [(0.05, 0.01), (0.05, 0.1), (0.25, 0.01), (0.25, 0.1)];
-            let motor = [(0.3, 0.01), (0.3, 0.1)].map(|(ratio, rubs)| own((ratio, rubs, AT_MOTOR)));
-            let load = load.map(|(ratio, rubs)| own((ratio, rubs, 1.0)));
-            load.into_iter().chain(motor.into_iter().filter(|_| c.hidden)).collect()
+            all.flat_map(own).collect()
         },
         applies: is_joined,
         confused: &["compliance", "presliding"],

@@ -1,0 +1,129 @@
+//! What does not begin smoothly: a load behind a joint.
+
+use super::{DOWN, GROSS, Walk, candidates::AFRESH, named::NOTHING};
+use crate::{
+    board::{Ahead, Fitted},
+    decide::Judged,
+    gram,
+    model::{self, Candidate},
+    screen::Scored,
+};
+use identify::{
+    Rig,
+    effects::{Context, Kind, LAWS},
+    fit::{FitError, binding},
+};
+
+/// So many beginnings of each kind are fitted; after so many simulations so many go on.
+const FIRST: usize = 6;
+const HEATS: [(usize, usize); 2] = [(3, 3), (8, 2)];
+
+/// Of the logarithm of what a window leaves, what does not begin smoothly takes away so much at least.
+const NEARER: f64 = 0.02;
+
+/// It is begun once more from so many times its amount, where it leaves more than a right model.
+const AROUND: [f64; 4] = [0.8, 0.9, 1.1, 1.25];
+
+/// And from so many times its load, and the damping or the time in which that comes to rest on it.
+const SHAPES: [&str; 3] = ["ratio", "damping", "teeth"];
+const TIMES: [f64; 2] = [0.5, 2.0];
+
+/// Of these so many are fitted.
+const KEPT: usize = 2;
+
+/// So is one of another kind that leaves no more than so many times what the nearest does.
+const RIVAL: f64 = 1.3;
+
+/// What is begun once more is as good as a model with an effect more if it leaves no more than so many times as much.
+pub(super) const AS_NEAR: f64 = 1.005;
+
+impl Walk<'_> {
+    /// What does not begin smoothly, and so has no score, refitted from each amount and shape at which it is tried beside
+    /// a model that goes along with it.
+    pub(super) fn begun(&self, context: &Context) -> Vec<Candidate> {
+        let mut all: Vec<Ahead> = Vec::new();
+        let now = self.judged(&self.best.blocks);
+        let far = now.level() > GROSS;
+        for point in self.points() {
+            let lacking = gram::lacking(&self.board, &self.best.rig, context);
+            let each = lacking.iter().flat_map(|(kind, probes)| {
+                let tried = move |p| kind.tried().iter().map(move |t| (*kind, p, *t));
+                probes.iter().flat_map(tried)
+            });
+            let one = |(kind, probe, tried): (Kind, &Vec<f64>, f64)| {
+                let values = gram::tried(kind, probe, tried, context);
+                (kind, model::with(point, &Scored::unscored(kind, values)))
+            };
+            let rigs: Vec<(Kind, Rig)> = each.map(one).collect();
+            if let Ok((alone, there)) = self.board.ahead(point, &rigs) {
+                all.extend(there.into_iter().filter(|a| !far || a.far < alone - NEARER));
+            }
+        }
+        all.sort_by(|a, b| a.far.total_cmp(&b.far));
+        let raced = LAWS.iter().flat_map(|kind| {
+            let own = all.iter().filter(|a| a.kind == *kind).take(FIRST);
+            let own: Vec<(Kind, Rig)> = own.map(|a| (*kind, a.rig.clone())).collect();
+            self.board.raced(&own, &HEATS, &AFRESH)
+        });
+        self.longer(raced.collect(), (&now, context))
+    }
+
+    /// What does not begin smoothly once more, if it is the nearest of all and not down at the floor, and its rivals of
+    /// another kind.
+    pub(super) fn beside(&self, all: &[Candidate], context: &Context) -> Vec<Candidate> {
+        let Some((best, least)) = self.nearest(all) else { return Vec::new() };
+        if best.kind.tried().is_empty() || least < DOWN {
+            return Vec::new();
+        }
+        let joints = LAWS.iter().filter(|kind| !kind.tried().is_empty());
+        let rivals = joints.filter_map(|kind| {
+            let own: Vec<Candidate> = all.iter().filter(|c| c.kind == *kind).cloned().collect();
+            let (nearest, level) = self.nearest(&own)?;
+            (level < RIVAL * least).then(|| nearest.clone())
+        });
+        let rivals: Vec<Candidate> = rivals.collect();
+        rivals.iter().flat_map(|rival| self.around(rival.kind, &rival.fitted, context)).collect()
+    }
+
+    /// What does not begin smoothly once more from a little more and a little less of it than a model has, and from another
+    /// load: wherever the load meets its tooth between other samples there is a minimum of its own.
+    fn around(&self, kind: Kind, fitted: &Fitted, context: &Context) -> Vec<Candidate> {
+        let about = kind.about();
+        let with = |(key, share): (&str, f64)| {
+            let name = format!("{}.{key}", about.name);
+            let mut rig = fitted.rig.clone();
+            let value = rig.value(&name)?;
+            binding::set(&mut rig, &name, share * value);
+            Some((kind, rig))
+        };
+        let amounts = AROUND.map(|share| (about.keys[0].name, share));
+        let shapes = SHAPES.iter().flat_map(|key| TIMES.map(|share| (*key, share)));
+        let all: Vec<(Kind, Rig)> = amounts.into_iter().chain(shapes).filter_map(with).collect();
+        let Ok((_, all)) = self.board.ahead(fitted, &all) else { return Vec::new() };
+        let near = all.into_iter().take(KEPT).map(|a| (a.far, a.kind, a.rig)).collect();
+        self.longer(near, (&self.judged(&self.best.blocks), context))
+    }
+
+    /// The last model, if it is near the floor and has what does not begin smoothly, with that begun once more: if it
+    /// then leaves no more than what has an effect more, `found`.
+    pub(super) fn joint_anew(
+        &self,
+        now: &Judged,
+        found: &Fitted,
+        context: &Context,
+    ) -> Result<Option<Fitted>, FitError> {
+        let has = |kind: &&Kind| {
+            let name = kind.about().name;
+            !kind.tried().is_empty() && self.best.rig.effects.iter().any(|e| e.name == name)
+        };
+        let Some(kind) = LAWS.iter().find(has).filter(|_| now.level() < NOTHING) else {
+            return Ok(None);
+        };
+        let all = self.around(*kind, &self.best, context);
+        let Some((nearest, _)) = self.nearest(&all) else { return Ok(None) };
+        let anew = self.ended(nearest.fitted.clone())?;
+        let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
+        let as_good = level(&anew) < AS_NEAR * level(found);
+        Ok(Some(anew).filter(|_| as_good))
+    }
+}
