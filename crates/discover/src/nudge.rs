@@ -201,6 +201,7 @@ fn speed(q: &[f64], step: f64) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::walk::made::{slide, slides};
     use identify::fit::Seen;
 
     const RIG: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n\
@@ -244,36 +245,6 @@ mod tests {
         let most = left.force.iter().skip(200).fold(0.0, |m: f64, f| m.max(f.abs()));
         let drives = data.input.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
         assert!(most < 0.01 * drives, "{most} N of {drives} N");
-    }
-
-    /// Dry friction of 1.5 N to 1 mN, forth and back with rests between, to so many metres.
-    fn slide(trembles: f64) -> Data {
-        let mut random = ChaCha8Rng::seed_from_u64(3);
-        let mut noise = |size: f64| -> f64 {
-            let drawn: f64 = StandardNormal.sample(&mut random);
-            size * drawn
-        };
-        let (mut x, mut last, mut input, mut force) = (0.0, 0.0, Vec::new(), Vec::new());
-        for i in 0..8000 {
-            if i % 200 >= 100 {
-                last = if i % 400 < 200 { 1.0 } else { -1.0 };
-                x += 1e-4 * last;
-            }
-            input.push(x + noise(trembles));
-            force.push(1.5 * last + noise(1e-3));
-        }
-        let time = (0..8000).map(|i| 0.005 * f64::from(i)).collect();
-        let seen = Seen::new("force", force, 0.0);
-        let driven = Data::driven(time, input, identify::Hold::Linear, seen.clone());
-        Data { displacement: None, force: Some(seen), ..driven }
-    }
-
-    fn slides(f_c: f64) -> Rig {
-        let text = format!(
-            "title = \"a slide\"\n[plant]\nkind = \"prescribed\"\n[friction]\nname = \"coulomb\"\n\
-             f_c = {f_c:?}\n[channels]\ntime = \"t\"\ndisplacement = \"x\"\nforce = \"f\"\n"
-        );
-        Rig::parse(&text).unwrap()
     }
 
     #[test]

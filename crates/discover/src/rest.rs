@@ -1,6 +1,7 @@
 //! An imposed motion at rest: a measured displacement never rests, and a bristle that is shaken by its noise forgets.
 
 use identify::fit::Data;
+use std::borrow::Cow;
 
 /// What lies within so many standard deviations of the noise, over at least so many samples, may be at rest.
 const WITHIN: f64 = 7.0;
@@ -8,6 +9,11 @@ const LEAST: usize = 10;
 
 /// A slope of so many standard errors is a motion.
 const MOVING: f64 = 4.0;
+
+/// `data` as its motion is simulated: an imposed one rests where it does, a driven one is as it is.
+pub(crate) fn still(data: &Data) -> Cow<'_, Data> {
+    if data.force.is_some() { Cow::Owned(rested(data)) } else { Cow::Borrowed(data) }
+}
 
 /// `data` with the imposed displacement replaced by its mean wherever it rests.
 pub(crate) fn rested(data: &Data) -> Data {

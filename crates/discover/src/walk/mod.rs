@@ -106,13 +106,7 @@ struct End {
 /// Looks for what the model `rig` of the record `data` lacks; whether the record is nearer with its input as in one of the `others`
 /// is asked on the way.
 fn walked(rig: &Rig, data: &Data, others: &[Data], options: &Options) -> Result<End, FitError> {
-    let still;
-    let data = if data.force.is_some() {
-        still = crate::rest::rested(data);
-        &still
-    } else {
-        data
-    };
+    let data = &*crate::rest::still(data);
     let fixed = Rig { free: Vec::new(), ..rig.clone() };
     let mut loose = board::loose(rig);
     let mut held = board::loosened(rig, &loose);
