@@ -21,8 +21,11 @@ const TIMES: usize = 4;
 /// the other one has gone one step.
 #[derive(Debug, Clone)]
 pub(crate) struct Ahead {
+    /// What it leaves, as a logarithm [1].
     pub(crate) far: f64,
+    /// The kind of what it has more.
     pub(crate) kind: Kind,
+    /// The model, moved.
     pub(crate) rig: Rig,
 }
 

@@ -44,8 +44,8 @@ impl Walk<'_> {
         let mut all: Vec<Ahead> = Vec::new();
         let now = self.judged(&self.best.blocks);
         let far = now.level() > GROSS;
+        let lacking = gram::lacking(&self.board, &self.best.rig, context);
         for point in self.points() {
-            let lacking = gram::lacking(&self.board, &self.best.rig, context);
             let each = lacking.iter().flat_map(|(kind, probes)| {
                 let tried = move |p| kind.tried().iter().map(move |t| (*kind, p, *t));
                 probes.iter().flat_map(tried)

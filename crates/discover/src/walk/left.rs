@@ -76,20 +76,19 @@ impl Walk<'_> {
     /// few samples, is the same in all blocks, and does not hang on how the plant moves.
     fn only_noise(&self, fitted: &Fitted) -> bool {
         let of = 1 + usize::from(self.board.data.velocity.is_some());
-        let loud = |c: &usize| {
-            let blocks = self.channel(fitted, *c);
-            self.judging_of(&blocks).mostly() > MORE
-        };
-        let noise = |c: usize| {
+        let told = |c: usize| {
             let blocks = self.channel(fitted, c);
-            let quiet = c < of && self.judging_of(&blocks).mostly() < LOUDEST;
-            quiet && run(&blocks) < STEADY && {
+            (c, self.judging_of(&blocks).mostly(), run(&blocks))
+        };
+        let noise = |(c, left, run): (usize, f64, f64)| {
+            c < of && left < LOUDEST && run < STEADY && {
                 let rest = self.rest(fitted, (c, of));
                 rest.together < TOGETHER && rest.told < TOLD
             }
         };
         let seen = !self.board.imposed() && self.board.data.displacement.is_some();
-        let mut all = (0..channels(fitted)).filter(loud).peekable();
+        let loud = |(_, left, _): &(usize, f64, f64)| *left > MORE;
+        let mut all = (0..channels(fitted)).map(told).filter(loud).peekable();
         seen && all.peek().is_some() && all.all(noise)
     }
 

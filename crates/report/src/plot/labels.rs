@@ -74,4 +74,10 @@ mod tests {
         assert_eq!(fit("a name far too long", 60.0), "a name…");
         assert!(spread(&[], 14.0, 0.0, 1.0).is_empty());
     }
+
+    #[test]
+    fn a_fraction_has_the_room_that_it_takes() {
+        // Its advance in DejaVu Sans, the widest of the fonts that a browser falls back to.
+        assert!(width("½") >= 0.969 * crate::plot::canvas::TEXT);
+    }
 }
