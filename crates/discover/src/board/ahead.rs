@@ -10,8 +10,7 @@ use identify::{
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-/// One in so many of the training blocks is looked at, and no fewer than so many blocks.
-const FEW: usize = 3;
+/// Some of the training blocks are looked at, but no fewer than so many.
 const LEAST: usize = 4;
 
 /// A window is worth its logarithm: that is told so often.
@@ -40,9 +39,7 @@ impl Board<'_> {
         if rigs.is_empty() {
             return Ok((f64::INFINITY, Vec::new()));
         }
-        let training: Vec<usize> = (0..self.trains.len()).filter(|k| self.trains[*k]).collect();
-        let few: Vec<usize> = training.iter().copied().step_by(FEW).collect();
-        let taken = if few.len() < LEAST { training } else { few };
+        let taken = self.few(LEAST);
         let own = self.problem(&point.rig, |k| taken.contains(&k))?;
         let there = (0..self.windows.len()).filter(|w| taken.contains(&self.block(*w)));
         let pieces: Vec<Piece> = there.map(|w| point.pieces[w].clone()).collect();

@@ -8,10 +8,10 @@ use identify::{
 };
 use rayon::prelude::*;
 
-/// The first heat is run on one in so many of the training blocks: who is last is seen on these.
+/// Some of the training blocks are one in so many.
 const FEW: usize = 3;
 
-/// And on no fewer than so many.
+/// The first heat is run on some, but on no fewer than so many.
 const LEAST: usize = 6;
 
 impl Board<'_> {
@@ -29,11 +29,10 @@ impl Board<'_> {
     ) -> Vec<(f64, Kind, Rig)> {
         let mut heats: Vec<(usize, usize)> = heats.to_vec();
         heats.push((patience.simulations, usize::MAX));
-        let training: Vec<usize> = (0..self.trains.len()).filter(|k| self.trains[*k]).collect();
-        let few: Vec<usize> = training.iter().copied().step_by(FEW).collect();
+        let (training, few) = (self.training(), self.few(LEAST));
         let (simulations, kept) = heats[0];
         // An imposed motion is one run whatever is taken of it.
-        if self.imposed() || few.len() < LEAST || rigs.len() <= kept {
+        if self.imposed() || few.len() == training.len() || rigs.len() <= kept {
             return self.run(rigs, &training, &heats, patience);
         }
         let left = self.run(rigs, &few, &heats[..1], patience);
@@ -42,6 +41,18 @@ impl Board<'_> {
             *so_many -= simulations;
         }
         self.run(&left, &training, &heats[1..], patience)
+    }
+
+    /// The training blocks.
+    fn training(&self) -> Vec<usize> {
+        (0..self.trains.len()).filter(|k| self.trains[*k]).collect()
+    }
+
+    /// Some of them, or all where these would be fewer than `least`: who is last is seen on some.
+    pub(super) fn few(&self, least: usize) -> Vec<usize> {
+        let all = self.training();
+        let few: Vec<usize> = all.iter().copied().step_by(FEW).collect();
+        if few.len() < least { all } else { few }
     }
 
     /// The heats of a race on these blocks.
