@@ -25,6 +25,7 @@ mod walk;
 mod wrong;
 
 pub use confirm::{Confirmed, confirm};
+pub use maps::Of;
 pub use nudge::{Residual, residual};
 pub use verdict::{
     Discovery, Found, Gap, Limit, MapOf, Moved, Options, Ranked, Share, Value, Verdict,

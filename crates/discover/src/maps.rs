@@ -1,4 +1,5 @@
-//! Where a force acts that has no name: maps over time, displacement, velocity and drive.
+//! Where a force acts that has no name: maps over time, displacement, velocity and drive, of a force beside the friction or
+//! of more friction.
 
 use crate::{
     board::{Board, Fitted},
@@ -17,9 +18,30 @@ const AXES: [&str; 4] = ["time", "displacement", "velocity", "drive"];
 /// How many hats a map has.
 const HATS: usize = 12;
 
+/// What a map is of: a force beside the friction, or more friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Of {
+    /// A force whichever way it moves.
+    Force,
+    /// What holds it back.
+    Friction,
+}
+
+impl Of {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Force => "force",
+            Self::Friction => "friction",
+        }
+    }
+}
+
 /// A map of what is left.
 #[derive(Debug, Clone)]
 pub(crate) struct Map {
+    /// What it is of.
+    pub(crate) of: Of,
     /// Over what.
     pub(crate) axis: &'static str,
     /// The places of its hats [the axis' unit].
@@ -32,36 +54,54 @@ pub(crate) struct Map {
     pub(crate) gain: f64,
 }
 
-/// The maps of a fitted model, the one that explains most first.
+/// The maps of this of a fitted model, the one that explains most first.
 pub(crate) fn maps(
     board: &Board<'_>,
     fitted: &Fitted,
-    context: &Context,
+    (context, of): (&Context, Of),
 ) -> Result<Vec<Map>, FitError> {
-    let mut all = Vec::new();
-    for (axis, (name, [low, high])) in AXES.iter().zip(ranges(board, context)).enumerate() {
-        if high <= low {
-            continue;
-        }
-        let width = (high - low) / (HATS - 1) as f64;
-        let at: Vec<f64> = (0..HATS).map(|i| low + width * i as f64).collect();
-        let mut rig: Rig = fitted.rig.clone();
-        for (i, center) in at.iter().enumerate() {
-            add_hat(&mut rig, i, (axis, *center, width));
-        }
-        let gram = Gram::of_rig(board, fitted, &rig)?;
-        let (by, gain, left) = screen::joint(&gram, &board.trains);
-        let force = by.iter().zip(&gram.probes[0].sizes).map(|(by, size)| by * size).collect();
-        all.push(Map { axis: name, at, force, left, gain });
+    // More friction is told as a share of itself.
+    let unit = match of {
+        Of::Force => 1.0,
+        Of::Friction => board.problem(&fitted.held(), |_| false)?.model(&[]).contact.level(),
+    };
+    if unit == 0.0 {
+        return Ok(Vec::new());
     }
+    let ranges =
+        ranges(board, context).into_iter().enumerate().filter(|(_, [low, high])| high > low);
+    let axes: Vec<(usize, Vec<f64>)> = ranges
+        .map(|(axis, [low, high])| {
+            let width = (high - low) / (HATS - 1) as f64;
+            (axis, (0..HATS).map(|i| low + width * i as f64).collect())
+        })
+        .collect();
+    let with = |(axis, at): &(usize, Vec<f64>)| {
+        let mut rig = fitted.held();
+        for (i, center) in at.iter().enumerate() {
+            add_hat(&mut rig, i, (*axis, *center, at[1] - at[0]), of);
+        }
+        rig
+    };
+    let rigs: Vec<Rig> = axes.iter().map(with).collect();
+    let grams = Gram::beside(board, fitted, &rigs)?;
+    let one = |((axis, at), gram): ((usize, Vec<f64>), Gram)| {
+        let (by, gain, left) = screen::joint(&gram, &board.trains);
+        let force =
+            by.iter().zip(&gram.probes[0].sizes).map(|(by, size)| unit * by * size).collect();
+        Map { of, axis: AXES[axis], at, force, left, gain }
+    };
+    let mut all: Vec<Map> = axes.into_iter().zip(grams).map(one).collect();
     all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     Ok(all)
 }
 
 /// Adds the `i`-th free force of a map, around one place of an axis, to a rig; it is not there yet.
-pub(crate) fn add_hat(rig: &mut Rig, i: usize, (axis, center, width): (usize, f64, f64)) {
-    let values = [("amount", 0.0), ("axis", axis as f64), ("center", center), ("width", width)];
-    let values = values.iter().map(|(key, v)| ((*key).to_owned(), *v)).collect();
+fn add_hat(rig: &mut Rig, i: usize, (axis, center, width): (usize, f64, f64), of: Of) {
+    let of = if of == Of::Force { 0.0 } else { 1.0 };
+    let place = [("axis", axis as f64), ("center", center), ("width", width), ("of", of)];
+    let values = [("amount", 0.0)].into_iter().chain(place);
+    let values = values.map(|(key, v)| (key.to_owned(), v)).collect();
     rig.effects.push(Effect { name: format!("map-{i}"), values });
     rig.free.push(format!("map-{i}.amount"));
 }

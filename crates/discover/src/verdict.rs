@@ -1,5 +1,6 @@
 //! The answer.
 
+use crate::maps::Of;
 use identify::{Hold, Rig, effects::Kind};
 
 /// What is asked for.
@@ -146,6 +147,8 @@ pub struct Share {
 /// A map of what has no name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapOf {
+    /// What the force is: one beside the friction, or more friction.
+    pub of: Of,
     /// Over what.
     pub axis: &'static str,
     /// Places [the axis' unit].

@@ -87,7 +87,8 @@ fn gap(gap: &Gap) -> Value {
 }
 
 fn map(map: &MapOf) -> Value {
-    json!({ "axis": map.axis, "at": map.at, "force": map.force, "shrink": map.shrink, "gain": map.gain })
+    json!({ "of": map.of.name(), "axis": map.axis, "at": map.at, "force": map.force,
+            "shrink": map.shrink, "gain": map.gain })
 }
 
 fn ranked(r: &Ranked) -> Value {

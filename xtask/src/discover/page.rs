@@ -14,7 +14,7 @@ use crate::{
     },
     recorded::safe,
 };
-use discover::{Gap, Moved, Residual};
+use discover::{Gap, Moved, Of, Residual};
 use experiment::four_digits;
 use identify::fit::{Data, Trace};
 use report::{FitFigure, FitPage, FitPanel, FitPart, FitRole};
@@ -241,9 +241,13 @@ fn confirmed(told: &Told) -> Option<FitPart> {
 fn left(told: &Told) -> Option<FitPart> {
     let map = told.found.map.as_ref()?;
     let (unit, force) = (axis_unit(told, map.axis), axis_unit(told, "drive"));
+    let (of, what) = match map.of {
+        Of::Force => ("A force", "what is left"),
+        Of::Friction => ("Friction", "friction more than the model's"),
+    };
     let panel = FitPanel {
         x: format!("{} [{unit}]", map.axis),
-        y: format!("what is left [{force}]"),
+        y: format!("{what} [{force}]"),
         curves: vec![curve("map", &map.at, &map.force, FitRole::After)],
         ..FitPanel::default()
     };
@@ -257,7 +261,7 @@ fn left(told: &Told) -> Option<FitPart> {
         figures: shows(map)
             .then(|| FitFigure {
                 title: format!("What is left over the {}", map.axis),
-                caption: "A force without a name, fitted piece by piece.".to_owned(),
+                caption: format!("{of} without a name, fitted piece by piece."),
                 panels: vec![panel],
                 over_time: true,
             })

@@ -2,7 +2,7 @@
 
 use super::{Run, Told, answer::identified, verdict};
 use crate::fit::shown::sure;
-use discover::{Found, Gap, Limit, MapOf, Moved};
+use discover::{Found, Gap, Limit, MapOf, Moved, Of};
 use experiment::four_digits;
 use identify::{Hold, effects::Kind, rig};
 
@@ -202,7 +202,8 @@ pub(super) fn acts(told: &Told, map: &MapOf) -> String {
         return faint(map);
     };
     format!(
-        "what is left acts over {}, most at {} {} with {} {}; a map takes away {} % of it",
+        "what is left acts {} {}, most at {} {} with {} {}; a map takes away {} % of it",
+        over(map),
         map.axis,
         four_digits(*at),
         axis_unit(told, map.axis),
@@ -210,6 +211,14 @@ pub(super) fn acts(told: &Told, map: &MapOf) -> String {
         axis_unit(told, "drive"),
         four_digits(100.0 * map.shrink)
     )
+}
+
+/// How what a map is of acts.
+fn over(map: &MapOf) -> &'static str {
+    match map.of {
+        Of::Force => "over",
+        Of::Friction => "as friction over",
+    }
 }
 
 /// Whether a map lowers the sum of squares by far more than as many numbers do by chance.
@@ -224,7 +233,11 @@ fn faint(map: &MapOf) -> String {
         return "no place of the motion, the drive or the record stands out".to_owned();
     }
     format!(
-        "what is left goes with {}, most of all: a map lowers χ² there by {} in all, by chance by {chance}",
+        "what is left {} {}, most of all: a map lowers χ² there by {} in all, by chance by {chance}",
+        match map.of {
+            Of::Force => "goes with",
+            Of::Friction => "is friction that goes with",
+        },
         map.axis,
         four_digits(map.gain)
     )

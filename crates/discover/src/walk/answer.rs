@@ -8,9 +8,8 @@ use crate::{
     board::Fitted,
     decide::{Judged, shrink},
     gram::Gram,
-    maps::{self, Map},
     screen,
-    verdict::{Discovery, Found, Gap, Limit, MapOf, Moved, Value, Verdict, name},
+    verdict::{Discovery, Found, Gap, Limit, Moved, Value, Verdict, name},
     wrong::{Minimum, drag, wrong},
 };
 use identify::{
@@ -43,10 +42,6 @@ const UNSEEN: f64 = 1e-12;
 /// What leaves so much may leave noise that is not white, if it takes away so much of the excess.
 pub(super) const NOISY: f64 = 1.6;
 pub(super) const NEARLY_ALL: f64 = 0.99;
-
-/// A map of twelve forces lowers the sum of squares by so much, in units of the floor, if something acts: by chance by
-/// twelve, on 74 records with nothing hidden by 38 at most.
-const ACTS: f64 = 100.0;
 
 /// A nominal parameter that moves further was wrong: nominal values are a little off, always.
 const WRONG: f64 = 0.08;
@@ -90,10 +85,13 @@ impl Walk<'_> {
             }
         }
         let mut verdict = verdict(&effects, &parameters, ([first, nominal, last], mostly), struck);
-        if verdict == Verdict::NothingMissing
-            && let Some(faint) = self.faint(context)?
-        {
-            (verdict, map) = (Verdict::NotInLibrary, Some(faint));
+        let beyond = match verdict {
+            Verdict::NothingMissing => self.faint(context)?,
+            Verdict::Effect => self.resembled(refit, context)?,
+            _ => None,
+        };
+        if beyond.is_some() {
+            (verdict, map) = (Verdict::NotInLibrary, beyond);
         }
         if verdict == Verdict::NotInLibrary {
             effects.clear();
@@ -129,29 +127,6 @@ impl Walk<'_> {
         Ok(surely_worse(&near, &free))
     }
 
-    /// The maps of what is left, the one that lowers the sum of squares most first.
-    fn maps(&self, context: &Context) -> Result<Vec<MapOf>, FitError> {
-        let now = self.judged(&self.best.blocks).level();
-        let shown = |map: Map| {
-            let blocks: Vec<Vec<f64>> = map.left.iter().map(|sum| vec![*sum]).collect();
-            let gone = shrink(now, self.judged(&blocks).level());
-            MapOf { axis: map.axis, at: map.at, force: map.force, shrink: gone, gain: map.gain }
-        };
-        // The residuals are those of the fine steps, the derivatives need not be.
-        Ok(maps::maps(&self.board, &self.best, context)?.into_iter().map(shown).collect())
-    }
-
-    /// The map that takes away most of what is left.
-    fn map(&self, context: &Context) -> Result<Option<MapOf>, FitError> {
-        Ok(self.maps(context)?.into_iter().max_by(|a, b| a.shrink.total_cmp(&b.shrink)))
-    }
-
-    /// The map of what acts though it leaves hardly more than noise does: one that lowers the sum of squares, beside all
-    /// parameters, by far more than as many numbers do by chance.
-    fn faint(&self, context: &Context) -> Result<Option<MapOf>, FitError> {
-        Ok(self.maps(context)?.into_iter().next().filter(|map| map.gain > ACTS))
-    }
-
     /// All free values of the last model with their standard errors, as if those that are `known` were, and the names
     /// of those for which `rig` has a wrong value.
     pub(super) fn values(
@@ -160,7 +135,7 @@ impl Walk<'_> {
         known: &dyn Fn(&str) -> bool,
     ) -> Result<(Vec<Value>, Vec<String>), FitError> {
         let problem = self.board.problem(&self.best.rig, |_| true)?;
-        let gram = Gram::of_rig(&self.board, &self.best, &self.best.rig)?;
+        let gram = Gram::alone(&self.board, &self.best)?;
         let n = gram.nominal;
         let mut all = gram.sum(|_| true);
         let variance = self.judged(&self.best.blocks).mean().max(1.0);
@@ -313,8 +288,6 @@ fn verdict(
 #[cfg(test)]
 mod tests {
     use super::{Found, Judged, Verdict, surely, surely_worse, verdict};
-    use crate::walk::made;
-    use identify::{Rig, effects::Kind};
     use nalgebra::DMatrix;
 
     #[test]
@@ -328,26 +301,6 @@ mod tests {
         assert!((inverse[(2, 2)] / expected - 1.0).abs() < 1e-9, "{inverse}");
         assert!((inverse[(0, 0)] / 5e11 - 1.0).abs() < 1e-3, "{inverse}");
         assert!(surely(DMatrix::zeros(0, 0)).is_none());
-    }
-
-    #[test]
-    fn a_small_force_without_a_name_is_seen_beside_all_parameters() {
-        let data = made::data();
-        let mut walk = made::walk(&made::rig(2.0), &data, &[]);
-        let context = made::context(&walk);
-        let mut leaves = |bias: f64| {
-            let right = made::with(&made::rig(2.0), Kind::CurrentBias, &[bias]);
-            walk.best = walk.board.judged(&Rig { free: Vec::new(), ..right }, None).unwrap();
-            let level = walk.judged(&walk.best.blocks).level();
-            (level, walk.faint(&context).unwrap().map(|map| map.gain))
-        };
-        let (level, gain) = leaves(made::BIAS);
-        assert!(level < 1.2 && gain.is_none(), "{gain:?} where nothing is missing");
-        let (level, gain) = leaves(made::BIAS + 0.05);
-        assert!(
-            level < 1.3 && gain.is_some_and(|gain| gain > 2.0 * super::ACTS),
-            "{level}, {gain:?}"
-        );
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The way from a record to an answer.
 
+mod acts;
 mod answer;
 mod beam;
 mod candidates;

@@ -1,11 +1,13 @@
-//! A force that is known nowhere but where it acts: one hat of a map over time, angle, speed or drive.
+//! A force that is known nowhere but where it acts: one hat of a map over time, angle, speed or drive, beside the friction or
+//! as more of it.
 //!
 //! It is in no rig file; maps are drawn of it where no effect of the library explains what is left.
 
 use super::{About, Act, At, Channel, Key, Law, Measure};
 use crate::march::Real;
 
-/// A force beside the friction, around one place of an axis: 0 time, 1 displacement, 2 velocity, 3 drive.
+/// A force around one place of an axis, 0 time, 1 displacement, 2 velocity, 3 drive: beside the friction, or, of 1, so
+/// much more of it.
 pub(super) struct Map;
 
 impl Law for Map {
@@ -18,6 +20,7 @@ impl Law for Map {
             Key::probed("axis", Measure::One),
             Key::probed("center", Measure::One),
             Key::probed("width", Measure::One),
+            Key::probed("of", Measure::One),
         ],
         probes: About::no_shape,
         applies: |_| false,
@@ -35,6 +38,10 @@ impl Law for Map {
         };
         let away = (x - p[2]) / p[3];
         let away = if away.re() < 0.0 { -away } else { away };
-        if away.re() >= 1.0 { Act::None } else { Act::Force(p[0] * (-away + 1.0)) }
+        if away.re() >= 1.0 {
+            return Act::None;
+        }
+        let much = p[0] * (-away + 1.0);
+        if p[4].re() < 0.5 { Act::Force(much) } else { Act::More(much) }
     }
 }

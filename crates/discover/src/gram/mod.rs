@@ -1,19 +1,16 @@
 //! The derivatives of all residuals by what is free and by what may be missing, as one Gram matrix a block.
 
+mod rows;
+
 use crate::board::{Board, Fitted, SOFT};
 use identify::{
     Effect, Rig,
     effects::{Context, Key, Kind, LAWS, Shape},
-    fit::{
-        FitError,
-        binding::Scale,
-        models,
-        problem::{Piece, Problem},
-        window::Window,
-    },
+    fit::{FitError, binding::Scale, models, problem::Problem},
 };
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+pub(crate) use rows::{jacobians, residuals};
 
 /// An effect at one probe, and its columns.
 #[derive(Debug, Clone)]
@@ -167,27 +164,25 @@ impl Gram {
             }
         }
         let (prior, count) = (prior(&own), residuals.iter().map(|r| r.len() as f64).sum());
-        let windows = columns.into_par_iter().zip(residuals).map(|(columns, r)| gram(&columns, &r));
+        let windows = columns.par_iter().zip(residuals);
+        let windows = windows.map(|(own, r)| gram(&own.iter().collect::<Vec<_>>(), &r));
         let blocks = folded(board, windows.collect());
         Ok(Self { nominal, names, prior, residuals: count, probes, blocks })
     }
 
-    /// Of a fitted model and all that `rig` has free beside it, as one probe.
-    pub(crate) fn of_rig(board: &Board<'_>, fitted: &Fitted, rig: &Rig) -> Result<Self, FitError> {
-        let own = board.problem(&fitted.rig, |_| true)?;
-        let problem = board.problem(rig, |_| true)?;
-        let nominal = own.free.len();
-        let names = own.free.iter().map(|f| f.name.clone()).collect();
-        let sizes: Vec<f64> = problem.free.iter().skip(nominal).map(|f| f.slope(0.0)).collect();
-        let x: Vec<f64> = fitted.x.iter().copied().chain(vec![0.0; sizes.len()]).collect();
-        let jacobians = jacobians(board, &problem, &x, &fitted.pieces);
-        let residuals = residuals(board, &own, &fitted.x, &fitted.pieces);
-        let (prior, count) = (prior(&own), residuals.iter().map(|r| r.len() as f64).sum());
-        let both = jacobians.into_par_iter().zip(residuals);
-        let windows = both.map(|(columns, r)| gram(&[columns], &r)).collect();
-        let blocks = folded(board, windows);
-        let probes = vec![crate::maps::probe(nominal, sizes)];
-        Ok(Self { nominal, names, prior, residuals: count, probes, blocks })
+    /// Of a fitted model alone.
+    pub(crate) fn alone(board: &Board<'_>, fitted: &Fitted) -> Result<Self, FitError> {
+        Own::of(board, fitted)?.with(board, fitted, &fitted.held())
+    }
+
+    /// Of a fitted model and all that each of the `rigs` has free beside it, as one probe.
+    pub(crate) fn beside(
+        board: &Board<'_>,
+        fitted: &Fitted,
+        rigs: &[Rig],
+    ) -> Result<Vec<Self>, FitError> {
+        let own = Own::of(board, fitted)?;
+        rigs.iter().map(|rig| own.with(board, fitted, rig)).collect()
     }
 
     /// The sum over the blocks that `take` says, the nominal columns held near their values as much as the misfit asks for. Where the model is near, every
@@ -222,6 +217,43 @@ impl Gram {
         let n = self.blocks.first().map_or(0, DMatrix::nrows);
         let taken = self.blocks.iter().enumerate().filter(|(k, _)| take(*k));
         taken.fold(DMatrix::zeros(n, n), |sum, (_, block)| sum + block / worth(block))
+    }
+}
+
+/// The derivatives by what is free in a fitted model, and what it leaves, window by window.
+struct Own {
+    names: Vec<String>,
+    prior: Vec<f64>,
+    columns: Vec<DMatrix<f64>>,
+    residuals: Vec<DVector<f64>>,
+}
+
+impl Own {
+    fn of(board: &Board<'_>, fitted: &Fitted) -> Result<Self, FitError> {
+        let problem = board.problem(&fitted.rig, |_| true)?;
+        Ok(Self {
+            names: problem.free.iter().map(|f| f.name.clone()).collect(),
+            prior: prior(&problem),
+            columns: jacobians(board, &problem, &fitted.x, &fitted.pieces),
+            residuals: residuals(board, &problem, &fitted.x, &fitted.pieces),
+        })
+    }
+
+    /// With all that `rig` has free, as one probe.
+    fn with(&self, board: &Board<'_>, fitted: &Fitted, rig: &Rig) -> Result<Gram, FitError> {
+        let problem = board.problem(rig, |_| true)?;
+        let sizes: Vec<f64> = problem.free.iter().map(|f| f.slope(0.0)).collect();
+        let more = jacobians(board, &problem, &vec![0.0; sizes.len()], &fitted.pieces);
+        let windows = self.columns.par_iter().zip(more).zip(&self.residuals);
+        let windows = windows.map(|((own, more), r)| gram(&[own, &more], r)).collect();
+        Ok(Gram {
+            nominal: self.names.len(),
+            names: self.names.clone(),
+            prior: self.prior.clone(),
+            residuals: self.residuals.iter().map(|r| r.len() as f64).sum(),
+            probes: vec![crate::maps::probe(self.names.len(), sizes)],
+            blocks: folded(board, windows),
+        })
     }
 }
 
@@ -274,106 +306,16 @@ fn folded(board: &Board<'_>, windows: Vec<DMatrix<f64>>) -> Vec<DMatrix<f64>> {
     blocks.into_iter().flatten().collect()
 }
 
-fn gram(columns: &[DMatrix<f64>], residual: &DVector<f64>) -> DMatrix<f64> {
+fn gram(columns: &[&DMatrix<f64>], residual: &DVector<f64>) -> DMatrix<f64> {
     let rows = residual.len();
-    let all: usize = columns.iter().map(DMatrix::ncols).sum();
+    let all: usize = columns.iter().map(|part| part.ncols()).sum();
     let mut joined = DMatrix::zeros(rows, all + 1);
     let mut first = 0;
     for part in columns {
-        joined.columns_mut(first, part.ncols()).copy_from(part);
+        joined.columns_mut(first, part.ncols()).copy_from(*part);
         first += part.ncols();
     }
     joined.set_column(all, residual);
     // Faster than its `tr_mul`, which goes column by column.
     joined.transpose() * joined
-}
-
-/// The derivatives of every block's residuals, those of the load cells last.
-pub(crate) fn jacobians(
-    board: &Board<'_>,
-    problem: &Problem<'_>,
-    x: &[f64],
-    pieces: &[Piece],
-) -> Vec<DMatrix<f64>> {
-    let slopes = problem.all_slopes(x, pieces);
-    let loads = problem.cells(x).1;
-    let channels = problem.channels();
-    let windows = windows(board, problem);
-    let one = |k: usize| {
-        let window = &windows[k];
-        let n = window.len();
-        let own = if board.imposed() {
-            slopes[0].jacobian.rows(window.first, n).into_owned()
-        } else {
-            slopes[k].jacobian.rows(0, n * channels).into_owned()
-        };
-        if loads.nrows() == 0 {
-            return own;
-        }
-        let rows = own.nrows();
-        let mut all = DMatrix::zeros(rows + 2 * n, own.ncols());
-        all.rows_mut(0, rows).copy_from(&own);
-        for cell in 0..2 {
-            let from = cell_row(windows, k, cell);
-            all.rows_mut(rows + cell * n, n).copy_from(&loads.rows(from, n));
-        }
-        all
-    };
-    (0..windows.len()).map(one).collect()
-}
-
-/// Every block's residuals in the same order.
-pub(crate) fn residuals(
-    board: &Board<'_>,
-    problem: &Problem<'_>,
-    x: &[f64],
-    pieces: &[Piece],
-) -> Vec<DVector<f64>> {
-    let loads = problem.cells(x).0;
-    let channels = problem.channels();
-    let windows = windows(board, problem);
-    let one = |k: usize| {
-        let window = &windows[k];
-        let n = window.len();
-        let mut all: Vec<f64> = if board.imposed() {
-            pieces[0].residuals[window.first..window.end].to_vec()
-        } else {
-            pieces[k].residuals[..n * channels].to_vec()
-        };
-        if !loads.is_empty() {
-            for cell in 0..2 {
-                let from = cell_row(windows, k, cell);
-                all.extend_from_slice(&loads[from..from + n]);
-            }
-        }
-        DVector::from_vec(all)
-    };
-    (0..windows.len()).map(one).collect()
-}
-
-/// The row with which a load cell begins in a window, the cells after one another.
-fn cell_row(windows: &[Window], window: usize, cell: usize) -> usize {
-    let before = |windows: &[Window]| windows.iter().map(Window::len).sum::<usize>();
-    cell * before(windows) + before(&windows[..window])
-}
-
-/// The windows of a problem; those of the board where the motion is imposed, which is one run.
-fn windows<'a>(board: &'a Board<'_>, problem: &'a Problem<'_>) -> &'a [Window] {
-    if board.imposed() { &board.windows } else { &problem.windows }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Window, cell_row};
-    use crate::{board::Board, walk::made};
-
-    #[test]
-    fn the_cells_rows_of_some_windows_follow_one_another() {
-        let (rig, data) = (made::rig(2.0), made::data());
-        let board = Board::of(&rig, &data, 1, Vec::new()).unwrap();
-        let some: Vec<Window> = [1, 4, 6].map(|w| board.windows[w].clone()).into();
-        let [a, b, c] = [0, 1, 2].map(|w| some[w].len());
-        let rows = [0, 1].map(|cell| [0, 1, 2].map(|w| cell_row(&some, w, cell)));
-        assert_eq!(rows, [[0, a, a + b], [a + b + c, 2 * a + b + c, 2 * a + 2 * b + c]]);
-    }
 }
