@@ -1,6 +1,6 @@
 //! What does not begin smoothly: a load behind a joint.
 
-use super::{DOWN, GROSS, Walk, candidates::AFRESH, named::NOTHING};
+use super::{ABOVE, DOWN, GROSS, Walk, candidates::AFRESH, named::NOTHING};
 use crate::{
     board::{Ahead, Fitted},
     decide::Judged,
@@ -13,6 +13,10 @@ use identify::{
     effects::{Context, Kind, LAWS},
     fit::{FitError, binding},
 };
+
+/// What does not begin smoothly is looked for in so many rounds: where there is a play nothing else comes near, so that it is
+/// found first, or beside what was.
+const ROUNDS: usize = 2;
 
 /// So many beginnings of each kind are fitted; after so many simulations so many go on.
 const FIRST: usize = 6;
@@ -38,6 +42,11 @@ const RIVAL: f64 = 1.3;
 pub(super) const AS_NEAR: f64 = 1.005;
 
 impl Walk<'_> {
+    /// Whether what does not begin smoothly is worth a look in this round, where the model leaves this `level`.
+    pub(super) fn may_begin(&self, level: f64, round: usize) -> bool {
+        self.joins && round < ROUNDS && level > ABOVE && !self.explained(level)
+    }
+
     /// What does not begin smoothly, and so has no score, refitted from each amount and shape at which it is tried beside
     /// a model that goes along with it.
     pub(super) fn begun(&self, context: &Context) -> Vec<Candidate> {
@@ -125,5 +134,22 @@ impl Walk<'_> {
         let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
         let as_good = level(&anew) < AS_NEAR * level(found);
         Ok(Some(anew).filter(|_| as_good))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::walk::made;
+
+    #[test]
+    fn what_does_not_begin_smoothly_is_looked_for_first_or_beside_what_was() {
+        let data = made::data();
+        let mut walk = made::walk(&made::rig(2.0), &data, &[]);
+        assert!(walk.may_begin(8.0, 0) && walk.may_begin(8.0, 1) && !walk.may_begin(8.0, 2));
+        assert!(!walk.may_begin(1.05, 0), "near the floor");
+        walk.refit = 200.0;
+        assert!(!walk.may_begin(1.5, 1), "noise that is not white after all was explained");
+        walk.joins = false;
+        assert!(!walk.may_begin(8.0, 0));
     }
 }

@@ -327,9 +327,7 @@ impl Walk<'_> {
             return Ok(None);
         }
         // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.
-        let least = if round == 0 { ABOVE } else { NOTHING };
-        let joins = self.joins && now.level() > least && !self.explained(now.level());
-        if joins && !all.iter().any(|c| self.down(&now, c, context)) {
+        if self.may_begin(now.level(), round) && !all.iter().any(|c| self.down(&now, c, context)) {
             let joints = self.begun(context);
             all.extend(self.finely(joints)?);
             let beside = self.beside(&all, context);
