@@ -122,3 +122,49 @@ pub(crate) fn probe(nominal: usize, sizes: Vec<f64>) -> gram::Probe {
     let columns = (nominal..nominal + sizes.len()).collect();
     gram::Probe { kind: Kind::Map, values: Vec::new(), columns, sizes }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{HATS, Of, maps};
+    use crate::{board::Board, walk::made};
+    use identify::{
+        Hold, Rig,
+        fit::{Data, Seen},
+    };
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    const DRY: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n[friction]\n\
+        name = \"coulomb\"\nf_c = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n";
+
+    #[test]
+    fn friction_that_grows_with_time_is_no_force_that_does() {
+        // x = sin 2t of 2 kg on 3 N/m and dry friction of 0.5 N, which is 0.1 N more after ten seconds; noise of 1 mm.
+        let mut random = ChaCha8Rng::seed_from_u64(3);
+        let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
+        let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
+        let input = time.iter().map(|t| {
+            let (s, c) = f64::sin_cos(2.0 * t);
+            (3.0 - 2.0 * 4.0) * s + (0.5 + if *t > 10.0 { 0.1 } else { 0.0 }) * c.signum()
+        });
+        let input = input.collect();
+        let seen = time.iter().map(|t| (2.0 * t).sin() + 1e-3 * noise()).collect();
+        let data = Data::driven(time, input, Hold::Linear, Seen::new("position", seen, 0.0));
+        let rig = Rig::parse(DRY).unwrap();
+        let board = Board::of(&rig, &data, 1, Vec::new()).unwrap();
+        let fitted = board.judged(&rig, None).unwrap();
+        let context = crate::model::context(&board, &fitted);
+        let first = |of: Of| maps(&board, &fitted, (&context, of)).unwrap().remove(0);
+        let (rubs, pushes) = (first(Of::Friction), first(Of::Force));
+        assert_eq!((rubs.of, rubs.axis, rubs.force.len()), (Of::Friction, "time", HATS));
+        assert!(rubs.gain > pushes.gain, "{} and {}", rubs.gain, pushes.gain);
+        let mean = |force: &[f64]| force.iter().sum::<f64>() / force.len() as f64;
+        let (before, after) = (mean(&rubs.force[1..5]), mean(&rubs.force[7..11]));
+        assert!(before.abs() < 0.02 && (after - 0.1).abs() < 0.02, "{before} N, then {after} N");
+        // Without friction there is none to grow.
+        let bare = made::rig(2.0);
+        let none = maps(&board, &board.judged(&bare, None).unwrap(), (&context, Of::Friction));
+        assert!(none.unwrap().is_empty());
+    }
+}
