@@ -22,6 +22,8 @@ impl Law for FrictionDrift {
         test: 0.1,
     };
 
+    const FORMS: &[f64] = &[1.0, 2.0];
+
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
         grows(p[2], p[0] * (-(-p[1].recip() * at.t).exp() + 1.0))
     }
