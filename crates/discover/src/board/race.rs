@@ -1,10 +1,15 @@
 //! Several models fitted at once, of which the worse ones are left behind.
 
-use super::{Board, with_values};
+use super::{Board, Fitted, with_values};
 use identify::{
     Rig,
     effects::Kind,
-    fit::{descent::Descent, problem::Problem, search::Patience, starts},
+    fit::{
+        descent::Descent,
+        problem::{Piece, Problem},
+        search::Patience,
+        starts,
+    },
 };
 use rayon::prelude::*;
 
@@ -43,6 +48,12 @@ impl Board<'_> {
         self.run(&left, &training, &heats[1..], patience)
     }
 
+    /// What a model leaves, in the measure of a race.
+    pub(crate) fn far(&self, fitted: &Fitted) -> f64 {
+        let trains = |w: &usize| self.imposed() || self.trains[self.block(*w)];
+        far((0..fitted.pieces.len()).filter(trains).map(|w| &fitted.pieces[w]))
+    }
+
     /// The training blocks.
     fn training(&self) -> Vec<usize> {
         (0..self.trains.len()).filter(|k| self.trains[*k]).collect()
@@ -75,11 +86,7 @@ impl Board<'_> {
                 (*kind, problem, Descent::of(problem, &starts::nominal(problem), None))
             })
             .collect();
-        let far = |descent: &Descent<'_, '_>| -> f64 {
-            let pieces = descent.pieces();
-            let logarithms = pieces.iter().map(|piece| piece.misfit().max(f64::MIN_POSITIVE).ln());
-            logarithms.sum::<f64>() / pieces.len().max(1) as f64
-        };
+        let far = |descent: &Descent<'_, '_>| far(descent.pieces().iter());
         for (simulations, kept) in heats.iter().copied() {
             let heat = Patience { simulations, ..*patience };
             all.par_iter_mut().for_each(|(.., descent)| descent.go(&heat));
@@ -91,6 +98,16 @@ impl Board<'_> {
         });
         fitted.collect()
     }
+}
+
+/// The mean logarithm of the windows' misfits.
+fn far<'p>(pieces: impl Iterator<Item = &'p Piece>) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for piece in pieces {
+        sum += piece.misfit().max(f64::MIN_POSITIVE).ln();
+        count += 1.0;
+    }
+    sum / f64::max(count, 1.0)
 }
 
 #[cfg(test)]

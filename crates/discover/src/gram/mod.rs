@@ -110,13 +110,9 @@ impl Gram {
         (context, begun): (&Context, bool),
     ) -> Result<Self, FitError> {
         let lacking = lacking(board, &fitted.rig, context);
-        let own = board.problem(&fitted.rig, |_| true)?;
-        let (nominal, names) =
-            (own.free.len(), own.free.iter().map(|f| f.name.clone()).collect::<Vec<_>>());
-        let mut columns: Vec<Vec<DMatrix<f64>>> = jacobians(board, &own, &fitted.x, &fitted.pieces)
-            .into_iter()
-            .map(|j| vec![j])
-            .collect();
+        let Own { names, prior, columns, residuals } = Own::of(board, fitted)?;
+        let nominal = names.len();
+        let mut columns: Vec<Vec<DMatrix<f64>>> = columns.into_iter().map(|j| vec![j]).collect();
         let (smooth, joints): (Vec<_>, Vec<_>) = lacking
             .into_iter()
             .filter(|(kind, _)| has_amount(*kind))
@@ -151,7 +147,6 @@ impl Gram {
             }
             place += taken;
         }
-        let residuals = residuals(board, &own, &fitted.x, &fitted.pieces);
         for (kind, own) in joints.into_iter().filter(|_| begun) {
             for (probe, tried) in own.iter().zip(kind.tried()).take(1) {
                 let (size, moved) = tried_at(board, fitted, (kind, probe, *tried), context)?;
@@ -163,7 +158,7 @@ impl Gram {
                 }
             }
         }
-        let (prior, count) = (prior(&own), residuals.iter().map(|r| r.len() as f64).sum());
+        let count = residuals.iter().map(|r| r.len() as f64).sum();
         let windows = columns.par_iter().zip(residuals);
         let windows = windows.map(|(own, r)| gram(&own.iter().collect::<Vec<_>>(), &r));
         let blocks = folded(board, windows.collect());

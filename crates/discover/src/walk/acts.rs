@@ -27,7 +27,7 @@ impl Walk<'_> {
             let Map { of, axis, at, force, gain, .. } = map;
             MapOf { of, axis, at, force, shrink: gone, gain }
         };
-        // The residuals are those of the fine steps, the derivatives need not be.
+        // The residuals are those of the fine steps; the derivatives run along coarser ones (`Problem::slopes`).
         let all = maps::maps(&self.board, &self.best, (context, of))?;
         Ok(all.into_iter().map(shown).collect())
     }

@@ -19,6 +19,10 @@ use identify::{effects::Context, fit::FitError};
 /// So many first effects are begun with, that of the answer among them.
 const WIDE: usize = 3;
 
+/// So much of the excess one of two that explain all takes away alone: of two alike that undo each other by a half, c = -½,
+/// each takes (1 + c)/2.
+const HALF_UNDONE: f64 = 0.25;
+
 impl Walk<'_> {
     /// Keeps the first effects beside which another may be found, the nearest first.
     pub(super) fn keep_firsts(&mut self, rated: &[Rated]) {
@@ -46,7 +50,8 @@ impl Walk<'_> {
         for first in firsts.iter().filter(|c| Some(name(c.kind)) != taken) {
             let alone = self.judged(&first.fitted.blocks).level();
             // Beside what explains all only what is a good part of it alone.
-            if explained && shrink(self.refit, alone) <= MOST {
+            let least = if explained { MOST } else { HALF_UNDONE };
+            if shrink(self.refit, alone) <= least {
                 continue;
             }
             let before = (self.board.clone(), self.best.clone(), self.origin.clone());
@@ -142,6 +147,9 @@ mod tests {
         let (better, names, bias, left) = found(&data, &[(Kind::CurrentBias, 0.1)]);
         assert!(better && names == ["current_bias", "quadratic_drag"] && left < 1.1, "{names:?}");
         assert!((bias.unwrap() - BIAS).abs() < 0.01, "{bias:?}");
+        // A first that takes away next to nothing alone is none of two.
+        let (better, names, ..) = found(&data, &[(Kind::CurrentBias, 0.005)]);
+        assert!(!better && names.is_empty(), "{names:?}");
         let (better, names, bias, left) = found(&data, &[]);
         assert!(!better && names.is_empty() && bias.is_none() && left > 2.0, "{left}");
     }

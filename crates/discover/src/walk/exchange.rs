@@ -17,7 +17,8 @@ use identify::{
 impl Walk<'_> {
     /// Looks once more for every effect but the last, beside all others: what was found first made up for what was
     /// found later as well, and a richer effect does that better than a simple one. For the last one, too, where it is no
-    /// longer plausible: when another was taken away it may have become that one's opposite.
+    /// longer plausible: when another was taken away it may have become that one's opposite. What does not begin smoothly
+    /// stays: nothing else comes near where it is.
     pub(super) fn exchange_each(
         &mut self,
         effects: &mut [Found],
@@ -29,8 +30,11 @@ impl Walk<'_> {
             if place + 1 == effects.len() && plausible {
                 break;
             }
-            let (before, ranked) = (self.best.clone(), self.ranking.len());
             let name = effects[place].name;
+            if plausible && LAWS.iter().any(|k| k.about().name == name && !k.tried().is_empty()) {
+                continue;
+            }
+            let (before, ranked) = (self.best.clone(), self.ranking.len());
             self.reached = self.judged(&before.blocks).level().max(1.0);
             self.best = self.without(&before, name)?;
             self.origin = self.best.clone();
@@ -111,6 +115,23 @@ mod tests {
         // What is missing is a bias; a drag that drives is no drag.
         assert_eq!(last(-0.1), "current_bias");
         assert_eq!(last(0.1), "quadratic_drag", "what is plausible stays");
+    }
+
+    #[test]
+    fn what_does_not_begin_smoothly_stays() {
+        // What is missing is a bias, which takes the place of a drag but not of a soft gear.
+        let data = data();
+        let first = |kind: Kind, values: &[f64]| {
+            let mut walk = walk(&rig(2.0), &data, &[]);
+            let rig = with(&with(&rig(2.0), kind, values), Kind::CubicSpring, &[1e-3]);
+            walk.best = walk.board.judged(&rig, None).unwrap();
+            let context = context(&walk);
+            let mut effects = vec![found(kind.about().name), found("cubic_spring")];
+            walk.exchange_each(&mut effects, &context, &crate::Options::default()).unwrap();
+            effects[0].name
+        };
+        assert_eq!(first(Kind::QuadraticDrag, &[0.1]), "current_bias");
+        assert_eq!(first(Kind::Compliance, &[1e-4, 0.2, 0.5, 0.01]), "compliance");
     }
 
     #[test]

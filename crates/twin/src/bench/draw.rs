@@ -72,12 +72,14 @@ pub(super) fn calibrated(
     let contact = friction(name, LEAST, &sizes).is_some() && name != "presliding";
     let least = if contact { LEAST } else { LEAST / 20.0 };
     let least = if small { least / 5.0 } else { least };
+    let alone = visible::shown(without, seed)?;
     let mut strength: f64 = 0.1;
     for _ in 0..4 {
         let effect = effect(name, strength, &sizes)?;
         let mut with = without.clone();
         with.hidden.push(effect);
-        let seen = visible::most(&visible::visible(&with, without, seed)?, steady(name, without));
+        let visible = visible::visible(&visible::shown(&with, seed)?, &alone);
+        let seen = visible::most(&visible, steady(name, without));
         let factor = (target / seen.max(1e-9)).clamp(0.05, 20.0);
         let next = (strength * factor).clamp(least, MOST);
         if (0.7..1.4).contains(&factor) || next == strength {

@@ -140,7 +140,8 @@ pub fn case_of(recipe: &Recipe, seed: u64) -> Result<Case, TwinError> {
             let (at, factor) = nominal::drawn(recipe.family, &without, &mut stream);
             let mut off = without.clone();
             nominal::scale(&mut off, &at, factor);
-            key.visible = visible::visible(&without, &off, seed)?;
+            let [right, off] = [&without, &off].map(|nature| visible::shown(nature, seed));
+            key.visible = visible::visible(&right?, &off?);
             wrong = Some(Wrong { name: at, factor });
         }
         Hides::Effects(names) => {
@@ -151,7 +152,8 @@ pub fn case_of(recipe: &Recipe, seed: u64) -> Result<Case, TwinError> {
             let foreign = scenario.hidden.iter().any(HiddenEffect::foreign);
             if foreign { "foreign" } else { "effect" }.clone_into(&mut key.verdict);
             key.effects.clone_from(&scenario.hidden);
-            key.visible = visible::visible(&scenario, &without, seed)?;
+            let [with, alone] = [&scenario, &without].map(|nature| visible::shown(nature, seed));
+            key.visible = visible::visible(&with?, &alone?);
         }
     }
     let (rig, told) = nominal::rig(recipe, &without, wrong.as_ref(), &mut stream);

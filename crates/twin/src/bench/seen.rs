@@ -1,6 +1,9 @@
 //! How much of a change of nature is left to be seen once the free parameters have been refitted.
 
-use super::{Case, Hides, draw, nominal, visible};
+use super::{
+    Case, Hides, draw, nominal,
+    visible::{self, Shown},
+};
 use crate::{Scenario, TwinError};
 use nalgebra::{DMatrix, DVector};
 
@@ -55,8 +58,9 @@ impl Case {
     ) -> Result<f64, TwinError> {
         let mut free = nominal::free(self.recipe.family, other);
         free.retain(|name| Some(name.as_str()) != wrong);
-        let mut at = other.clone();
-        let mut here = self.around(&at, self.change(&self.scenario, &at)?, &free)?;
+        let truth = visible::shown(&self.scenario, self.seed)?;
+        let (mut at, there) = (other.clone(), visible::shown(other, self.seed)?);
+        let mut here = self.around(&at, Change::of(&truth, &there), (&there, &free))?;
         let first = here.left(steady).0;
         for _ in 0..REFITS {
             // A refit takes what is steady as it is: preloads that are said by nothing else are said by that.
@@ -66,12 +70,13 @@ impl Case {
                 for (name, step) in free.iter().zip(steps.iter()) {
                     nominal::scale(&mut moved, name, (1.0 + part * STEP * step).max(STEP));
                 }
-                let then = self.change(&self.scenario, &moved).ok()?;
-                let less = then.of(true).norm() < LESS * here.change.of(true).norm();
-                less.then_some((moved, then))
+                let there = visible::shown(&moved, self.seed).ok()?;
+                let then = Change::of(&truth, &there);
+                let less = then.all(true).norm() < LESS * here.change.all(true).norm();
+                less.then_some((moved, then, there))
             };
-            let Some((moved, change)) = PARTS.into_iter().find_map(moved) else { break };
-            here = self.around(&moved, change, &free)?;
+            let Some((moved, change, there)) = PARTS.into_iter().find_map(moved) else { break };
+            here = self.around(&moved, change, (&there, &free))?;
             at = moved;
         }
         // What cannot be reached is not linear either: what the nearest point known promises counts, and no more than
@@ -79,23 +84,20 @@ impl Case {
         Ok(here.left(steady).0.min(first))
     }
 
-    /// A `change` that nature `at` leaves, with what each free parameter changes there.
-    fn around(&self, at: &Scenario, change: Change, free: &[String]) -> Result<Around, TwinError> {
+    /// A `change` that nature `at` leaves, with what each `free` parameter changes of what that shows.
+    fn around(
+        &self,
+        at: &Scenario,
+        change: Change,
+        (there, free): (&[Shown], &[String]),
+    ) -> Result<Around, TwinError> {
         let one = |name: &String| {
             let mut moved = at.clone();
             nominal::scale(&mut moved, name, 1.0 + STEP);
-            self.change(&moved, at)
+            Ok(Change::of(&visible::shown(&moved, self.seed)?, there))
         };
         let directions = free.iter().map(one).collect::<Result<_, TwinError>>()?;
         Ok(Around { change, directions })
-    }
-
-    fn change(&self, a: &Scenario, b: &Scenario) -> Result<Change, TwinError> {
-        let changes = visible::changes(a, b, self.seed)?.into_iter();
-        let one = |(_, noise, change): (_, f64, Vec<f64>)| {
-            change.into_iter().map(|v| v / noise).collect()
-        };
-        Ok(Change(changes.map(one).collect()))
     }
 }
 
@@ -103,8 +105,16 @@ impl Case {
 struct Change(Vec<Vec<f64>>);
 
 impl Change {
+    /// Of what is shown from what another nature shows.
+    fn of(shown: &[Shown], other: &[Shown]) -> Self {
+        let one = |(shown, other): (&Shown, &Shown)| {
+            shown.change(other).into_iter().map(|v| v / shown.noise).collect()
+        };
+        Self(shown.iter().zip(other).map(one).collect())
+    }
+
     /// All samples of all channels; a straight line is taken off every second of what is not to be `steady`.
-    fn of(&self, steady: bool) -> DVector<f64> {
+    fn all(&self, steady: bool) -> DVector<f64> {
         let one = |channel: &Vec<f64>| {
             if steady { channel.clone() } else { visible::straightened(channel, super::RATE) }
         };
@@ -121,8 +131,8 @@ struct Around {
 impl Around {
     /// The norm of what the parameters leave, to first order, and how much of each takes up the rest.
     fn left(&self, steady: bool) -> (f64, Vec<f64>) {
-        let directions: Vec<DVector<f64>> = self.directions.iter().map(|d| d.of(steady)).collect();
-        left(&self.change.of(steady), &directions)
+        let directions: Vec<DVector<f64>> = self.directions.iter().map(|d| d.all(steady)).collect();
+        left(&self.change.all(steady), &directions)
     }
 }
 

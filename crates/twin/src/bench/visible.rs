@@ -16,35 +16,48 @@ pub struct Visible {
     pub local: f64,
 }
 
-/// The changes between two natures with the same sensors, both without noise; channels without noise left out.
-pub(super) fn visible(a: &Scenario, b: &Scenario, seed: u64) -> Result<Vec<Visible>, TwinError> {
-    let all = changes(a, b, seed)?.into_iter();
-    let of = |(channel, noise, change): (&str, f64, Vec<f64>)| Visible {
-        channel: channel.to_owned(),
-        noise,
-        plain: rms(&change) / noise,
-        local: rms(&straightened(&change, super::RATE)) / noise,
-    };
-    Ok(all.map(of).collect())
+/// What a sensor would show of a motion without its noise.
+pub(super) struct Shown {
+    /// The channel, as a rig file calls it.
+    pub(super) channel: &'static str,
+    /// Noise of the sensor, white and of its step, in its unit.
+    pub(super) noise: f64,
+    /// Every sample, in its unit.
+    pub(super) values: Vec<f64>,
 }
 
-/// The name of each channel that has noise, its noise, and its change at every sample.
-pub(super) fn changes(
-    a: &Scenario,
-    b: &Scenario,
-    seed: u64,
-) -> Result<Vec<(&'static str, f64, Vec<f64>)>, TwinError> {
+/// The changes between what two natures with the same sensors show, `of` one `and` the other.
+pub(super) fn visible(of: &[Shown], and: &[Shown]) -> Vec<Visible> {
+    let one = |(of, and): (&Shown, &Shown)| {
+        let change = of.change(and);
+        Visible {
+            channel: of.channel.to_owned(),
+            noise: of.noise,
+            plain: rms(&change) / of.noise,
+            local: rms(&straightened(&change, super::RATE)) / of.noise,
+        }
+    };
+    of.iter().zip(and).map(one).collect()
+}
+
+impl Shown {
+    /// What is shown less what another nature shows, sample by sample.
+    pub(super) fn change(&self, other: &Self) -> Vec<f64> {
+        self.values.iter().zip(&other.values).map(|(a, b)| a - b).collect()
+    }
+}
+
+/// What the sensors show of a motion, those without noise left out.
+pub(super) fn shown(scenario: &Scenario, seed: u64) -> Result<Vec<Shown>, TwinError> {
     // Local errors ten times as large are still far below any noise.
-    let made = |scenario: &Scenario| make_hidden(&quiet(scenario), seed, &Nothing, 10.0);
-    let (with, without) = (made(a)?, made(b)?);
-    let pairs = with.clean[1..].iter().zip(&without.clean[1..]);
-    Ok(a.sensors
-        .iter()
-        .zip(pairs)
+    let made = make_hidden(&quiet(scenario), seed, &Nothing, 10.0)?;
+    let all = scenario.sensors.iter().zip(made.clean.into_iter().skip(1));
+    Ok(all
         .filter(|(sensor, _)| sensor.noise.max(sensor.quantum) > 0.0)
-        .map(|(sensor, ((_, with), (_, without)))| {
-            let change = with.iter().zip(without).map(|(a, b)| a - b).collect();
-            (sensor.quantity.name(), sensor.noise.hypot(sensor.quantum / 12f64.sqrt()), change)
+        .map(|(sensor, (_, values))| Shown {
+            channel: sensor.quantity.name(),
+            noise: sensor.noise.hypot(sensor.quantum / 12f64.sqrt()),
+            values,
         })
         .collect())
 }
