@@ -2,6 +2,7 @@
 
 use identify::{
     Hold, Recording, Rig,
+    effects::{Context, LAWS, Shape},
     fit::{Data, binding},
     march::{Drive, Motion, Start, Tolerance, march},
 };
@@ -154,4 +155,41 @@ fn a_clock_may_count_from_anywhere() {
     // Quarters of a second since 1970 have no rounding.
     assert_eq!(of(1_731_999_100.25), of(0.0));
     assert_eq!(of(-7.5).time[..2], [0.0, 0.25]);
+}
+
+#[test]
+fn every_form_in_which_an_effect_is_looked_for_is_one_that_it_may_take() {
+    let context = Context {
+        input: 1.0,
+        force: 1.0,
+        drive: 1.0,
+        cells: 2,
+        pull: 1.0,
+        speed: 1.0,
+        low: 0.0,
+        span: 1.0,
+        memory: 0.01,
+        duration: 60.0,
+        sample_time: 0.005,
+        mass: 1.0,
+        turns: true,
+        loaded: true,
+        hidden: true,
+        waves: [[20.0, 40.0], [30.0, 0.0]],
+    };
+    let mut several = Vec::new();
+    for kind in LAWS {
+        let about = kind.about();
+        // Amounts are no part of a probe.
+        let mut shapes = about.keys.iter().filter(|key| key.shape != Shape::Amount);
+        let Some(place) = shapes.position(|key| key.name == "form") else { continue };
+        let mut forms: Vec<f64> = (about.probes)(&context).iter().map(|p| p[place]).collect();
+        forms.sort_by(f64::total_cmp);
+        forms.dedup();
+        let unlisted: Vec<&f64> = forms.iter().filter(|f| !kind.forms().contains(f)).collect();
+        // What is looked for in one form alone may be that one.
+        assert!(unlisted.is_empty() || forms.len() == 1, "{}: {unlisted:?}", about.name);
+        several.extend((forms.len() > 1).then_some(about.name));
+    }
+    assert!(several.contains(&"load_friction") && several.len() > 2, "{several:?}");
 }

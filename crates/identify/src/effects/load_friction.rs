@@ -20,7 +20,7 @@ impl Law for LoadFriction {
         test: 0.1,
     };
 
-    const FORMS: &[f64] = &[1.0, 2.0];
+    const FORMS: &[f64] = &[1.0, 2.0, 3.0, 4.0];
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
         let f_c = if at.f_c().re() > 0.0 { at.f_c() } else { D::from(1.0) };
