@@ -17,10 +17,14 @@ const ACTS: f64 = 100.0;
 /// twenty-fifth of what it took; two wrong ones left a third, and twice as much.
 const PART: f64 = 0.2;
 
+/// And where several are named that do not explain all, if a force over the displacement leaves hardly more: they are its
+/// series.
+const SERIES: f64 = 1.2;
+
 impl Walk<'_> {
-    /// The maps of what is left, the one that lowers the sum of squares most first.
-    fn maps(&self, context: &Context, of: Of) -> Result<Vec<MapOf>, FitError> {
-        let now = self.judged(&self.best.blocks).level();
+    /// The maps of what a model leaves, the one that lowers the sum of squares most first.
+    fn maps(&self, fitted: &Fitted, context: &Context, of: Of) -> Result<Vec<MapOf>, FitError> {
+        let now = self.judged(&fitted.blocks).level();
         let shown = |map: Map| {
             let blocks: Vec<Vec<f64>> = map.left.iter().map(|sum| vec![*sum]).collect();
             let gone = shrink(now, self.judged(&blocks).level());
@@ -28,20 +32,20 @@ impl Walk<'_> {
             MapOf { of, axis, at, force, shrink: gone, gain }
         };
         // The residuals are those of the fine steps; the derivatives run along coarser ones (`Problem::slopes`).
-        let all = maps::maps(&self.board, &self.best, (context, of))?;
+        let all = maps::maps(&self.board, fitted, (context, of))?;
         Ok(all.into_iter().map(shown).collect())
     }
 
     /// The map that takes away most of what is left.
     pub(super) fn map(&self, context: &Context) -> Result<Option<MapOf>, FitError> {
-        let all = self.maps(context, Of::Force)?;
+        let all = self.maps(&self.best, context, Of::Force)?;
         Ok(all.into_iter().max_by(|a, b| a.shrink.total_cmp(&b.shrink)))
     }
 
     /// The map of what acts though it leaves hardly more than noise does: one that lowers the sum of squares, beside all
     /// parameters, by far more than as many numbers do by chance.
     pub(super) fn faint(&self, context: &Context) -> Result<Option<MapOf>, FitError> {
-        let all = self.maps(context, Of::Force)?;
+        let all = self.maps(&self.best, context, Of::Force)?;
         Ok(all.into_iter().next().filter(|map| map.gain > ACTS))
     }
 
@@ -62,10 +66,29 @@ impl Walk<'_> {
         if least > squares(&self.best) {
             return Ok(None);
         }
-        let mut all = self.maps(context, Of::Force)?;
-        all.extend(self.maps(context, Of::Friction)?);
+        let mut all = self.maps(&self.best, context, Of::Force)?;
+        all.extend(self.maps(&self.best, context, Of::Friction)?);
         let most = all.into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain));
         Ok(most.filter(|map| map.gain > least))
+    }
+
+    /// The map of one force over the displacement that does as well as several named effects, so `many`, which leave
+    /// something: friction that is stronger on the way out than on the way home is a step of a force at the middle, and a
+    /// wave with overtones and a slip make up for that in part. Over the velocity, and the drive that goes with it, the
+    /// library has many names, so that several of them are no series.
+    pub(super) fn series(
+        &self,
+        refit: &Fitted,
+        many: usize,
+        context: &Context,
+    ) -> Result<Option<MapOf>, FitError> {
+        if many < 2 {
+            return Ok(None);
+        }
+        let [nominal, last] = [refit, &self.best].map(|f| self.judged(&f.blocks).level());
+        let enough = shrink(nominal, SERIES * last);
+        let all = self.maps(refit, context, Of::Force)?;
+        Ok(all.into_iter().find(|map| map.axis == "displacement" && map.shrink > enough))
     }
 }
 
@@ -113,5 +136,35 @@ mod tests {
             let map = walk.resembled(&refit, &context).unwrap();
             assert_eq!(map.is_some(), only_resembles, "{after} N of {before} N");
         }
+    }
+
+    #[test]
+    fn several_names_are_the_series_of_a_force_over_the_displacement() {
+        // A force that goes from -0.5 N to 0.5 N in the middle, and one with the cube of the velocity.
+        let (mut steps, mut drags) = (made::data(), made::data());
+        for (i, t) in steps.time.iter().enumerate() {
+            let (x, v) = ((2.0 * t).sin(), 2.0 * (2.0 * t).cos());
+            steps.input[i] += made::BIAS + 0.5 * (x / 0.2).tanh();
+            drags.input[i] += made::BIAS + 0.1 * v * v * v;
+        }
+        let axis = |data: &identify::fit::Data, named: f64, many: usize| {
+            let mut walk = made::walk(&made::rig(2.0), data, &[]);
+            let context = made::context(&walk);
+            let refit = walk.best.clone();
+            let with = made::with(&made::rig(2.0), Kind::CubicSpring, &[named]);
+            let with = made::with(&with, Kind::QuadraticDrag, &[named]);
+            walk.best = walk.board.judged(&Rig { free: Vec::new(), ..with }, None).unwrap();
+            let levels = [&refit, &walk.best].map(|f| walk.judged(&f.blocks).level());
+            (walk.series(&refit, many, &context).unwrap().map(|map| map.axis), levels)
+        };
+        // A spring and a drag make up for a part of the step.
+        let (found, [alone, named]) = axis(&steps, 0.1, 2);
+        assert!(found == Some("displacement") && named < alone, "{found:?}: {alone} to {named}");
+        assert_eq!(axis(&steps, 0.1, 1).0, None, "a name is a name");
+        let (found, levels) = axis(&drags, 0.1, 2);
+        assert!(
+            found.is_none() && levels[1] < levels[0],
+            "over the velocity there are many: {found:?} {levels:?}"
+        );
     }
 }

@@ -88,6 +88,7 @@ impl Walk<'_> {
         let beyond = match verdict {
             Verdict::NothingMissing => self.faint(context)?,
             Verdict::Effect => self.resembled(refit, context)?,
+            Verdict::Partial => self.series(refit, effects.len(), context)?,
             _ => None,
         };
         if beyond.is_some() {
