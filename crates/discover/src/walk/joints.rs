@@ -26,8 +26,9 @@ const HEATS: [(usize, usize); 2] = [(3, 3), (8, 2)];
 const NEARER: f64 = 0.02;
 
 /// After its race it goes on if it has taken away so much of the logarithm of what the model leaves above the floor: of 13 that
-/// were found it was a quarter at least.
+/// were found it was a quarter at least. Below so many floors a race says nothing: of one, at 1.8, it saw a hundredth.
 const SEEN: f64 = 0.1;
+const CLEARLY: f64 = 3.0;
 
 /// It is begun once more from so many times its amount, where it leaves more than a right model.
 const AROUND: [f64; 4] = [0.8, 0.9, 1.1, 1.25];
@@ -78,7 +79,8 @@ impl Walk<'_> {
             let own: Vec<(Kind, Rig)> = own.map(|a| (*kind, a.rig.clone())).collect();
             self.board.raced(&own, &HEATS, &AFRESH)
         });
-        let least = self.board.far(&self.best) - SEEN * now.level().max(1.0).ln();
+        let (alone, level) = (self.board.far(&self.best), now.level());
+        let least = if level < CLEARLY { f64::INFINITY } else { alone - SEEN * level.ln() };
         self.longer(raced.filter(|(far, ..)| *far < least).collect(), (&now, context))
     }
 
@@ -163,7 +165,7 @@ mod tests {
         // What is missing is a tone: neither a play nor a soft gear comes near.
         let mut data = made::data();
         for (u, t) in data.input.iter_mut().zip(&data.time) {
-            *u += made::BIAS + 0.5 * (11.0 * t).sin();
+            *u += made::BIAS + 1.5 * (11.0 * t).sin();
         }
         let walk = made::walk(&made::rig(2.0), &data, &[]);
         let context = made::context(&walk);
@@ -171,6 +173,6 @@ mod tests {
         assert!(lacking.iter().any(|(kind, _)| !kind.tried().is_empty()));
         let level = walk.judged(&walk.best.blocks).level();
         let begun: Vec<_> = walk.begun(&context).iter().map(|c| c.kind).collect();
-        assert!(level > 2.0 && begun.is_empty(), "{level}: {begun:?}");
+        assert!(level > super::CLEARLY && begun.is_empty(), "{level}: {begun:?}");
     }
 }
