@@ -69,7 +69,7 @@ impl Walk<'_> {
     }
 
     /// Whether the effect of this name is plausible in the last model.
-    fn plausible(&self, name: &str, context: &Context) -> bool {
+    pub(super) fn plausible(&self, name: &str, context: &Context) -> bool {
         let others = [&self.best.rig, &self.origin.rig, &self.given];
         let kind = LAWS.iter().find(|kind| kind.about().name == name);
         kind.is_none_or(|kind| model::plausible(&self.best.rig, *kind, context, &others))

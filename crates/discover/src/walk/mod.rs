@@ -157,7 +157,7 @@ fn walked(rig: &Rig, data: &Data, others: &[Data], options: &Options) -> Result<
     let mut effects = walk.rounds(&context, options, &start)?;
     walk.looked_over(&mut effects, &context, options)?;
     let refit = walk.polish(&refit, options.seed)?;
-    walk.drop_unsure(rig, &refit, &mut effects)?;
+    walk.drop_unsure((rig, &refit), &mut effects, &context)?;
     let before = walk.board.judged(&fixed, None)?;
     let other = if walk.turned.is_some() { walk.turned } else { walk.may_be_other()? };
     let found = walk.answer((rig, &before, &refit), (effects, &start), &context)?;

@@ -196,12 +196,12 @@ impl<'a> Walk<'a> {
     }
 
     /// Takes away again, where the refitted nominal model leaves no more than the floor, every effect of which no amount
-    /// is surely more than nothing: what its shapes fit besides is noise.
+    /// is surely more than nothing: what its shapes fit besides is noise. So is one that has become implausible.
     pub(super) fn drop_unsure(
         &mut self,
-        rig: &Rig,
-        refit: &Fitted,
+        (rig, refit): (&Rig, &Fitted),
         effects: &mut Vec<Found>,
+        context: &Context,
     ) -> Result<(), FitError> {
         if self.judged(&refit.blocks).level() > NOTHING {
             return Ok(());
@@ -223,7 +223,8 @@ impl<'a> Walk<'a> {
             };
             let mut amounts =
                 kind.about().keys.iter().filter(|key| key.shape == Shape::Amount).peekable();
-            if amounts.peek().is_some() && !amounts.any(sure) {
+            let unsure = amounts.peek().is_some() && !amounts.any(sure);
+            if unsure || !self.plausible(name, context) {
                 let alone = effects.len() == 1;
                 self.best = if alone { refit.clone() } else { self.without(&self.best, name)? };
                 effects.remove(place);
@@ -321,12 +322,30 @@ mod tests {
         let none = made_with(&bias, Kind::ViscousAsymmetry, &[1e-9]);
         let refit = walk.board.judged(&bias, None).unwrap();
         let both = walk.board.judged(&none, None).unwrap();
+        let context = context(&walk);
         for (before, left) in [(refit.clone(), 1), (walk.best.clone(), 2)] {
             walk.best = both.clone();
             let mut effects = vec![found("current_bias"), found("viscous_asymmetry")];
-            walk.drop_unsure(&rig(2.0), &before, &mut effects).unwrap();
+            walk.drop_unsure((&rig(2.0), &before), &mut effects, &context).unwrap();
             assert_eq!(effects.len(), left, "the nominal model is near, or far off");
             assert_eq!((effects[0].name, walk.best.rig.effects.len()), ("current_bias", left));
+        }
+    }
+
+    #[test]
+    fn an_effect_that_has_become_implausible_is_dropped_near_the_floor() {
+        let data = data();
+        let mut walk = walk(&rig(2.0), &data, &[]);
+        let bias = with(&rig(2.0), Kind::CurrentBias, &[BIAS]);
+        let refit = walk.board.judged(&bias, None).unwrap();
+        let context = context(&walk);
+        // A drag, and a drag that drives.
+        for (drag, left) in [(0.05, 2), (-0.05, 1)] {
+            let both = with(&bias, Kind::QuadraticDrag, &[drag]);
+            walk.best = walk.board.judged(&both, None).unwrap();
+            let mut effects = vec![found("current_bias"), found("quadratic_drag")];
+            walk.drop_unsure((&rig(2.0), &refit), &mut effects, &context).unwrap();
+            assert_eq!((effects.len(), effects[0].name), (left, "current_bias"), "{drag}");
         }
     }
 
