@@ -10,7 +10,7 @@ use crate::{
     verdict::{Found, Options},
 };
 use identify::{
-    effects::{Context, LAWS},
+    effects::{Context, Kind, LAWS},
     fit::FitError,
 };
 
@@ -31,7 +31,7 @@ impl Walk<'_> {
                 break;
             }
             let name = effects[place].name;
-            if plausible && LAWS.iter().any(|k| k.about().name == name && !k.tried().is_empty()) {
+            if plausible && kind_of(name).is_some_and(|kind| !kind.tried().is_empty()) {
                 continue;
             }
             let (before, ranked) = (self.best.clone(), self.ranking.len());
@@ -71,9 +71,14 @@ impl Walk<'_> {
     /// Whether the effect of this name is plausible in the last model.
     pub(super) fn plausible(&self, name: &str, context: &Context) -> bool {
         let others = [&self.best.rig, &self.origin.rig, &self.given];
-        let kind = LAWS.iter().find(|kind| kind.about().name == name);
-        kind.is_none_or(|kind| model::plausible(&self.best.rig, *kind, context, &others))
+        let plausible = |kind| model::plausible(&self.best.rig, kind, context, &others);
+        kind_of(name).is_none_or(plausible)
     }
+}
+
+/// The effect of this name.
+pub(super) fn kind_of(name: &str) -> Option<Kind> {
+    LAWS.iter().copied().find(|kind| kind.about().name == name)
 }
 
 /// Whether a model that was `plausible`, or was not, gives way to another: what is not plausible does in any case.
@@ -84,9 +89,7 @@ fn gives_way(plausible: bool, [then, now]: [&Judged; 2], [had, another]: [&str; 
 /// Whether a model with `another` effect takes the place of the one it had then: if it is not surely worse, or by no more
 /// than what is worth no name; one that needs more numbers must surely be better.
 fn takes(now: &Judged, then: &Judged, [another, had]: [&str; 2]) -> bool {
-    let many = |name: &str| {
-        LAWS.iter().find(|kind| kind.about().name == name).map_or(0, |kind| numbers(*kind))
-    };
+    let many = |name: &str| kind_of(name).map_or(0, numbers);
     if many(another) > many(had) {
         return then.against(now) >= SURE;
     }

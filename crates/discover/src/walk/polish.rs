@@ -2,6 +2,7 @@
 
 use super::{
     ABOVE, DOWN, GROSS, REFIT, Walk, astray,
+    exchange::kind_of,
     named::{MOST, NOTHING, Rated, SURE, shows},
 };
 use crate::{
@@ -12,7 +13,7 @@ use crate::{
 };
 use identify::{
     Rig,
-    effects::{Context, Key, LAWS, Shape},
+    effects::{Context, Key, Shape},
     fit::{FitError, binding, search::Patience, starts},
 };
 use rayon::prelude::*;
@@ -208,7 +209,7 @@ impl<'a> Walk<'a> {
         }
         for place in (0..effects.len()).rev() {
             let name = effects[place].name;
-            let Some(kind) = LAWS.iter().find(|kind| kind.about().name == name) else { continue };
+            let Some(kind) = kind_of(name) else { continue };
             // What smoothly goes on with a long time is the same line with many amounts, and there all the same.
             let smooth = kind.tried().is_empty();
             let shape = |own: &str| {
