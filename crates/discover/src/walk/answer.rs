@@ -58,7 +58,8 @@ impl Walk<'_> {
         let mostly = [refit, &self.best].map(|f| self.leaves(f));
         let tone = self.tone(&self.best);
         let struck = self.struck() || tone.is_some();
-        let unexplained = mostly[1] > MORE || struck;
+        let hangs = !effects.is_empty() && self.hangs_together(&self.best);
+        let unexplained = mostly[1] > MORE || struck || hangs;
         let mut map = if unexplained { self.map(context)? } else { None };
         let (values, wrong) = self.values(rig, &|_| false)?;
         for effect in &mut effects {
@@ -84,7 +85,8 @@ impl Walk<'_> {
                 parameter.moved = false;
             }
         }
-        let mut verdict = verdict(&effects, &parameters, ([first, nominal, last], mostly), struck);
+        let levels = ([first, nominal, last], mostly);
+        let mut verdict = verdict(&effects, &parameters, levels, (struck, hangs));
         let beyond = match verdict {
             Verdict::NothingMissing => self.faint(context)?,
             Verdict::Effect => self.resembled(refit, context)?,
@@ -262,7 +264,7 @@ fn verdict(
     effects: &[Found],
     parameters: &[Moved],
     ([before, refit, last], mostly): ([f64; 3], [f64; 2]),
-    struck: bool,
+    (struck, hangs): (bool, bool),
 ) -> Verdict {
     // A few blocks that went astray say little.
     let more = |mostly: f64| mostly > MORE;
@@ -276,7 +278,7 @@ fn verdict(
     // Noise that is not white leaves more than the floor, the same whatever moves; what takes away all but a hundredth of
     // the excess is no part of something else.
     let noisy = mostly[1] < NOISY && shrink(refit, last) > NEARLY_ALL;
-    if !more(mostly[1]) || noisy && !struck {
+    if !more(mostly[1]) && !hangs || noisy && !struck {
         return Verdict::Effect;
     }
     // What takes away a part of something else is not its name.
@@ -318,7 +320,8 @@ mod tests {
 
     #[test]
     fn what_leaves_plenty_is_something_though_no_map_shows_where() {
-        let of = |level: f64| verdict(&[], &[], ([90.0, level, level], [level, level]), false);
+        let of =
+            |level: f64| verdict(&[], &[], ([90.0, level, level], [level, level]), (false, false));
         assert_eq!(of(1.3), Verdict::NotInLibrary);
         assert_eq!(of(1.1), Verdict::NothingMissing);
     }
@@ -333,10 +336,11 @@ mod tests {
             t: 9.0,
             separated_by: String::new(),
         };
-        let of = |refit: f64, last: f64| {
+        let hanging = |refit: f64, last: f64, hangs: bool| {
             let levels = [900.0, refit, last];
-            verdict(&[found()], &[], (levels, [refit, last]), false)
+            verdict(&[found()], &[], (levels, [refit, last]), (false, hangs))
         };
+        let of = |refit: f64, last: f64| hanging(refit, last, false);
         // Two wrong names, of a soft gear and of a sensor that creeps, and three right ones.
         for (refit, last) in [(6.07, 1.33), (4.21, 1.24)] {
             assert_eq!(of(refit, last), Verdict::NotInLibrary, "{last} of {refit}");
@@ -347,6 +351,10 @@ mod tests {
         // Noise that is not white leaves a little of a lot.
         assert_eq!(of(94.0, 1.45), Verdict::Effect);
         assert_eq!(of(94.0, 1.7), Verdict::Partial);
+        // What hangs together is no noise, however little it is: a name that leaves it explains no more than a part.
+        assert_eq!(hanging(3.67, 1.17, true), Verdict::NotInLibrary);
+        assert_eq!(hanging(40.0, 1.17, true), Verdict::Effect, "but for a hundredth");
+        assert_eq!(hanging(7.0, 1.17, true), Verdict::Partial);
         // Much is left of much more.
         assert_eq!(of(9000.0, 5.0), Verdict::Partial);
     }
