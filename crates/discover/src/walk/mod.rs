@@ -341,7 +341,9 @@ impl Walk<'_> {
         if round == 0 {
             self.keep_firsts(&rated);
         }
-        let Some((best, found)) = found(&now, &rated, round) else { return Ok(None) };
+        let leads =
+            |(best, found): &(&Candidate, Found)| self.leads(&now, (&best.fitted, found.shrink));
+        let Some((best, found)) = found(&now, &rated, round).filter(leads) else { return Ok(None) };
         // What takes away the little that a play leaves may be what its own minimum besides the best leaves.
         let anew = self.joint_anew(&now, &best.fitted, context)?;
         let anew = if anew.is_some() { anew } else { self.reformed(&best.fitted)? };
