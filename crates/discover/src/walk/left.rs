@@ -13,6 +13,9 @@ const ALONE: f64 = 1.4;
 const LASTING: usize = 3;
 const STRUCK: f64 = 4.0;
 
+/// The noise of an imposed displacement has moved a force that spreads by so many times the noise of its own sensor.
+const LOST: f64 = 3.0;
+
 /// Noise that is not white hangs together over so few samples, is the same in all blocks but for so much, and no more
 /// than this share of it hangs on how the plant moves. What a wrong model leaves on the records looked at hung together
 /// over 18 samples and more.
@@ -56,9 +59,26 @@ impl Walk<'_> {
     }
 
     /// Whether something acts for a while only: some neighbouring blocks are far worse than the middle one. A single
-    /// one may have gone astray.
+    /// one may have gone astray, and so may all through which an imposed motion rests.
     pub(super) fn struck(&self) -> bool {
-        (0..channels(&self.best)).any(|c| run(&self.channel(&self.best, c)) > STRUCK)
+        let adrift = self.adrift();
+        let told = |channel: usize| {
+            let blocks = self.channel(&self.best, channel).into_iter().zip(&adrift);
+            blocks.map(|(left, adrift)| if *adrift { 0.0 } else { left }).collect::<Vec<f64>>()
+        };
+        (0..channels(&self.best)).any(|c| run(&told(c)) > STRUCK)
+    }
+
+    /// In which blocks the force of an imposed motion is what the noise of the displacement made of it: where it rests the
+    /// contact keeps what it was left with, so that all samples of the rest are off by the same.
+    fn adrift(&self) -> Vec<bool> {
+        let (board, mut adrift) = (&self.board, vec![false; self.board.trains.len()]);
+        for (w, window) in board.windows.iter().enumerate().filter(|_| board.imposed()) {
+            let spread = board.spread.get(window.first..window.end).unwrap_or_default();
+            let many = spread.iter().filter(|[own, _]| *own > LOST * board.weights.force).count();
+            adrift[board.block(w)] |= 2 * many > window.len();
+        }
+        adrift
     }
 
     /// The mean squared residual of every block in one channel [1].
@@ -245,16 +265,15 @@ mod tests {
 
     #[test]
     fn what_a_wrong_model_leaves_hangs_together_longer_than_noise() {
-        let hangs = |lasts: f64, bias: f64| {
-            let data = noisier(lasts);
+        let hangs = |data: &Data, bias: f64| {
             let with = made::with(&made::rig(2.0), Kind::CurrentBias, &[bias]);
-            let walk = made::walk(&with, &data, &[]);
+            let walk = made::walk(&with, data, &[]);
             walk.hangs_together(&walk.best)
         };
         for lasts in [0.0, 0.7, 0.9] {
-            assert!(!hangs(lasts, made::BIAS), "noise of which {lasts} lasts");
+            assert!(!hangs(&noisier(lasts), made::BIAS), "noise of which {lasts} lasts");
         }
-        assert!(hangs(0.0, 0.5 * made::BIAS));
+        assert!(hangs(&made::data(), 0.5 * made::BIAS));
     }
 
     #[test]
@@ -287,6 +306,28 @@ mod tests {
             *block = [1.3, 1.0, 1.0, 1.0].map(|level| level * n).to_vec();
         }
         assert!(walk.leaves(&fitted) < 1.2, "{}", walk.leaves(&fitted));
+    }
+
+    #[test]
+    fn a_rest_in_which_an_imposed_motion_left_a_force_strikes_nothing() {
+        let data = made::slide(0.0);
+        let mut walk = made::walk(&made::slides(1.5), &data, &[]);
+        for block in &mut walk.best.blocks[4..7] {
+            block[0] *= 30.0;
+        }
+        assert!(walk.struck());
+        // A force that spreads as far there as the noise of the displacement moves it.
+        let force = walk.board.weights.force;
+        walk.board.spread.resize(data.time.len(), [0.0; 2]);
+        for window in 4..7 {
+            let own = &walk.board.windows[window];
+            walk.board.spread[own.first..own.end].fill([30.0 * force, 0.0]);
+        }
+        assert!(!walk.struck());
+        // Without two of them the third alone is one that went astray.
+        let own = &walk.board.windows[6];
+        walk.board.spread[own.first..own.end].fill([0.1 * force, 0.0]);
+        assert!(!walk.struck());
     }
 
     #[test]
