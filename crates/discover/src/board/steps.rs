@@ -59,9 +59,18 @@ fn steps(pieces: &[Piece]) -> f64 {
     pieces.iter().map(|p| p.motion.tape.steps() as f64).sum()
 }
 
+/// Whether the motions `now` are no better than the `last` ones, which had longer steps: they differ by less than this
+/// `share`, or one that could be followed no longer can, for it takes more steps than there are.
+fn no_better(last: &[Piece], now: &[Piece], share: f64) -> bool {
+    let lost = |pieces: &[Piece]| pieces.iter().filter(|p| p.motion.tape.steps() == 0).count();
+    // Two motions whose steps are both as long as the sampling time say nothing of each other.
+    let shorter = steps(now) > SHORTER * steps(last);
+    lost(now) > lost(last) || shorter && apart(last, now) < share
+}
+
 impl Board<'_> {
     /// Takes the longest steps with which a model's residuals are off by less than this `share` of what they are: of
-    /// the noise, or of what the model leaves if that is more.
+    /// the noise, or of what the model leaves if that is more; or those before the first with which it cannot be followed.
     pub(crate) fn refine(&mut self, fitted: &Fitted, share: f64) -> Result<(), FitError> {
         if self.imposed() {
             return Ok(());
@@ -79,9 +88,7 @@ impl Board<'_> {
             self.tolerance = tolerance;
             let problem = self.problem(&rig, some)?;
             let pieces = models::settled(&problem, &[], Some(&starts), 0);
-            // Two motions whose steps are both as long as the sampling time say nothing of each other.
-            let shorter = |last: &Vec<Piece>| steps(&pieces) > SHORTER * steps(last);
-            if last.as_ref().is_some_and(|last| shorter(last) && apart(last, &pieces) < share) {
+            if last.as_ref().is_some_and(|last| no_better(last, &pieces, share)) {
                 self.tolerance = TOLERANCES[k - 1];
                 break;
             }
@@ -122,7 +129,8 @@ impl Board<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{FINE, Piece, allowed, apart};
+    use super::{Board, FINE, Piece, allowed, apart, no_better};
+    use crate::walk::made;
     use identify::{fit::window::START, march::Motion};
 
     /// So many windows of a hundred residuals each, three of them off in the first few windows.
@@ -144,6 +152,22 @@ mod tests {
         assert!(apart(&still, &windows(22)) > FINE);
         assert_eq!(apart(&still, &windows(5)), 0.0, "what went another way says nothing");
         assert_eq!(apart(&[], &[]), 0.0);
+    }
+
+    #[test]
+    fn steps_with_which_a_motion_can_no_longer_be_followed_are_too_short() {
+        let data = made::data();
+        let mut board = Board::of(&made::rig(2.0), &data, 1, Vec::new()).unwrap();
+        let fitted = board.judged(&made::rig(2.0), None).unwrap();
+        board.tolerance = 1e-8;
+        let (longer, shorter) = (fitted.pieces.clone(), board.again(&fitted).unwrap().pieces);
+        assert!(no_better(&longer, &shorter, FINE), "they are as good");
+        assert!(!no_better(&longer, &shorter, 1e-12));
+        let mut lost = shorter.clone();
+        lost[3].motion = Motion::default();
+        assert!(no_better(&longer, &lost, 1e-12));
+        assert!(!no_better(&lost, &shorter, 1e-12), "it is found again");
+        assert!(!no_better(&longer, &longer, FINE), "the same steps say nothing");
     }
 
     #[test]
