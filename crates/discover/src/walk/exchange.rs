@@ -10,7 +10,7 @@ use crate::{
     verdict::{Found, Options},
 };
 use identify::{
-    effects::{Context, Kind, LAWS},
+    effects::{Context, Key, Kind, LAWS},
     fit::FitError,
 };
 
@@ -81,6 +81,12 @@ pub(super) fn kind_of(name: &str) -> Option<Kind> {
     LAWS.iter().copied().find(|kind| kind.about().name == name)
 }
 
+/// The key of an effect that a free parameter is, if it is one of its: `inertia` is a plant's own.
+pub(super) fn key_of(kind: Kind, parameter: &str) -> Option<&'static Key> {
+    let key = parameter.strip_prefix(kind.about().name)?.strip_prefix('.')?;
+    kind.about().keys.iter().find(|own| own.name == key)
+}
+
 /// Whether a model that was `plausible`, or was not, gives way to another: what is not plausible does in any case.
 fn gives_way(plausible: bool, [then, now]: [&Judged; 2], [had, another]: [&str; 2]) -> bool {
     !plausible || takes(now, then, [another, had])
@@ -99,7 +105,7 @@ fn takes(now: &Judged, then: &Judged, [another, had]: [&str; 2]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Judged, gives_way, takes};
+    use super::{Judged, gives_way, key_of, takes};
     use crate::walk::made::{context, data, found, rig, walk, with};
     use identify::effects::Kind;
 
@@ -118,6 +124,16 @@ mod tests {
         // What is missing is a bias; a drag that drives is no drag.
         assert_eq!(last(-0.1), "current_bias");
         assert_eq!(last(0.1), "quadratic_drag", "what is plausible stays");
+    }
+
+    #[test]
+    fn a_plants_parameter_is_no_effects_though_it_has_its_name() {
+        for kind in super::LAWS.iter().copied() {
+            let (name, keys) = (kind.about().name, kind.about().keys);
+            assert!(key_of(kind, name).is_none(), "{name}");
+            let own = |key: &super::Key| key_of(kind, &format!("{name}.{}", key.name));
+            assert!(keys.iter().all(|key| own(key).is_some_and(|found| found.name == key.name)));
+        }
     }
 
     #[test]

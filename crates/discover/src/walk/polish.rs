@@ -2,7 +2,7 @@
 
 use super::{
     ABOVE, DOWN, GROSS, REFIT, Walk, astray,
-    exchange::kind_of,
+    exchange::{key_of, kind_of},
     named::{MOST, NOTHING, Rated, SURE, shows},
 };
 use crate::{
@@ -212,10 +212,7 @@ impl<'a> Walk<'a> {
             let Some(kind) = kind_of(name) else { continue };
             // What smoothly goes on with a long time is the same line with many amounts, and there all the same.
             let smooth = kind.tried().is_empty();
-            let shape = |own: &str| {
-                let key = |key: &&Key| own.strip_prefix(name).is_some_and(|o| o[1..] == *key.name);
-                kind.about().keys.iter().any(|k| key(&k) && k.shape != Shape::Amount)
-            };
+            let shape = |own: &str| key_of(kind, own).is_some_and(|k| k.shape != Shape::Amount);
             let (values, _) = self.values(rig, &|own| smooth && shape(own))?;
             let sure = |key: &Key| {
                 let name = format!("{name}.{}", key.name);
