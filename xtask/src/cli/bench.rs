@@ -107,10 +107,10 @@ pub(crate) struct CoverageArgs {
 }
 
 /// How many records the full benchmark of hidden effects has.
-pub(crate) const HIDDEN: usize = 830;
+pub(crate) const HIDDEN: usize = 950;
 
 /// The first of its seeds: those before it were looked at while the method was made.
-pub(crate) const SCORED: u64 = 8_010_949;
+pub(crate) const SCORED: u64 = 8_011_218;
 
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own on the command line")]
