@@ -7,7 +7,7 @@ use crate::{
 };
 use identify::{
     Rig,
-    effects::{Context, Key, Kind, Measure, Shape, Sign},
+    effects::{Context, Key, Kind, Measure, Shape, Sign, WAVES},
     fit::{FitError, problem::Problem, search::Patience},
 };
 use std::f64::consts::{PI, TAU};
@@ -233,7 +233,7 @@ pub(crate) fn context(board: &Board<'_>, fitted: &Fitted) -> Context {
         turns: identify::rig::Kind::of(rig.kind).is_some_and(identify::rig::Kind::turns),
         hidden: rig.kind == "axis",
         loaded: model.balance.stiffness != 0.0 || model.balance.gravity != 0.0,
-        waves: [[0.0; 2]; 2],
+        waves: [[0.0; WAVES]; 2],
     }
 }
 
@@ -242,7 +242,7 @@ mod tests {
     use super::plausible;
     use identify::{
         Rig,
-        effects::{Context, Kind},
+        effects::{Context, Kind, WAVES},
     };
 
     const RIG: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n\
@@ -266,7 +266,7 @@ mod tests {
         turns: false,
         hidden: false,
         loaded: true,
-        waves: [[0.0; 2]; 2],
+        waves: [[0.0; WAVES]; 2],
     };
 
     /// Whether friction that grows by s sin kq + c cos kq is plausible on a record between -0.25 and 0.25 m.

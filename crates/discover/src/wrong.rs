@@ -50,14 +50,19 @@ pub(crate) fn wrong(minimum: &Minimum<'_>, rig: &Rig) -> Vec<usize> {
     loose
 }
 
-/// How far the damping by a motor's back-EMF, K_t²/R, may be off because its constants are, each by [`OFF`]: as a root
+/// How far the damping by a motor's back-EMF, K²/R, may be off because its constants are, each by [`OFF`]: as a root
 /// mean square and at most. It cannot be told from viscous friction.
+///
+/// Where the inertia is free all forces may have another scale, that of K/R: with K u/R − K² q'/R − σ₂ q' of the drive
+/// and of its model in that ratio, σ₂ makes up for (K/R) times the difference of the two K alone.
 pub(crate) fn drag(rig: &Rig, name: &str) -> [f64; 2] {
     if name != "sigma_2" {
         return [0.0; 2];
     }
     let damping = identify::fit::binding::model::<f64>(rig, &|_| None).balance.damping;
-    [5.0_f64.sqrt() * OFF * damping, 3.0 * OFF * damping]
+    let scales = rig.free.iter().any(|free| free == "inertia");
+    let [rms, most] = if scales { [1.0, 1.0] } else { [5.0_f64.sqrt(), 3.0] };
+    [rms * OFF * damping, most * OFF * damping]
 }
 
 /// Where the variable of parameter `i` is at its given value, and the inverse square of how far it may be off; none
@@ -128,6 +133,10 @@ mod tests {
         let [rms, most] = drag(&rig, "sigma_2");
         assert!((rms / (0.02 * 0.02 * 5.0_f64.sqrt()) - 1.0).abs() < 1e-12, "{rms}");
         assert!((most / (0.02 * 0.06) - 1.0).abs() < 1e-12, "{most}");
+        // With forces to another scale K alone.
+        let free = text.replace("[channels]", "[fit]\nfree = [\"inertia\"]\n[channels]");
+        let [rms, most] = drag(&Rig::parse(&free).unwrap(), "sigma_2");
+        assert!((rms / (0.02 * 0.02) - 1.0).abs() < 1e-12 && rms.to_bits() == most.to_bits());
         assert_eq!(drag(&rig, "f_c"), [0.0; 2]);
     }
 

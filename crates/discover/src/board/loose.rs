@@ -51,6 +51,15 @@ pub(crate) fn loose(rig: &Rig) -> Vec<(String, f64)> {
     all
 }
 
+/// What is [`loose`], and what is free as well, where it is told and has a sign; f_S is told by its distance from f_C,
+/// which may be small.
+pub(crate) fn tied(rig: &Rig) -> Vec<(String, f64)> {
+    let given = |name: &String| Some((name.clone(), rig.value(name).filter(|v| *v > 0.0)?));
+    let told = |name: &&String| !name.contains('.') && *name != OFFSET && *name != "f_s";
+    let free = rig.free.iter().filter(told);
+    loose(rig).into_iter().chain(free.filter_map(given)).collect()
+}
+
 /// Whether a parameter of `rig` is free.
 fn is_free(rig: &Rig, key: &str) -> bool {
     rig.free.iter().any(|free| free == key)
@@ -79,7 +88,7 @@ impl Board<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::loose;
+    use super::{loose, tied};
     use identify::Rig;
 
     fn names(plant: &str, channels: &str, free: &str) -> Vec<String> {
@@ -101,5 +110,15 @@ mod tests {
         // The back-EMF stands for viscous friction where none is free.
         assert_eq!(names(pendulum, channels, "\"mass\""), ["inertia", "torque_constant"]);
         assert_eq!(names(pendulum, channels, "\"mass\", \"sigma_2\""), ["inertia"]);
+    }
+
+    #[test]
+    fn what_is_free_and_has_a_sign_is_tied_as_well() {
+        let text = "title = \"t\"\n[plant]\nkind = \"axis\"\ninertia = 1.0\ngain = 2.0\n[friction]\nname = \"lugre\"\n\
+             f_c = 1.0\nf_s = 1.5\nv_s = 0.1\nsigma_0 = 100.0\nsigma_1 = 1.0\nsigma_2 = 0.0\n\
+             [fit]\nfree = [\"f_c\", \"f_s\", \"sigma_2\"]\n[channels]\ntime = \"t\"\nvoltage = \"u\"\n\
+             position = \"q\"\n";
+        let tied = tied(&Rig::parse(text).unwrap());
+        assert_eq!(tied, [("inertia".to_owned(), 1.0), ("f_c".to_owned(), 1.0)]);
     }
 }

@@ -6,13 +6,15 @@ mod race;
 mod steps;
 
 pub(crate) use ahead::Ahead;
-pub(crate) use loose::{loose, loosened};
+pub(crate) use loose::{loose, loosened, tied};
 pub(crate) use steps::{FINE, ROUGH};
 
 use identify::{
     Rig,
     fit::{
-        Data, FitError, Seen, blocks,
+        Data, FitError, Seen,
+        binding::Scale,
+        blocks,
         descent::descend,
         models,
         problem::{Piece, Problem, Weights},
@@ -190,12 +192,15 @@ impl<'a> Board<'a> {
         let tolerance = self.tolerance;
         // The prior is about the value given in the rig file, wherever the variable is counted from.
         let held = self.loose.iter().filter(|(name, _)| base.free.iter().any(|f| f.name == *name));
-        let spread = |name: &str| match base.free.iter().find(|f| f.name == name) {
+        let spread = |name: &str, given: f64| match base.free.iter().find(|f| f.name == name) {
             Some(free) if name == OFFSET => LOOSE * prestress(rig) / free.slope(0.0),
+            Some(free) if !matches!(free.scale, Scale::Logarithm(_)) => {
+                LOOSE * given / free.slope(given).abs()
+            }
             _ => LOOSE,
         };
         let priors: Vec<(String, f64, f64)> =
-            held.map(|(name, given)| (name.clone(), *given, spread(name))).collect();
+            held.map(|(name, given)| (name.clone(), *given, spread(name, *given))).collect();
         let spread = self.spread.as_slice();
         let base = Problem {
             weights: self.weights,

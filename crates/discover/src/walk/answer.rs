@@ -2,11 +2,12 @@
 
 use super::{
     FIRST, Walk,
-    named::{LEAST, MOST, SURE},
+    named::{LEAST, SURE},
+    says::verdict,
 };
 use crate::{
     board::Fitted,
-    decide::{Judged, shrink},
+    decide::Judged,
     gram::Gram,
     screen,
     verdict::{Discovery, Found, Gap, Limit, Moved, Value, Verdict, name},
@@ -22,16 +23,6 @@ use nalgebra::{DMatrix, SymmetricEigen};
 /// What is left may be so much larger than the floor before it is said that more is missing: right models of 84 records
 /// left 0.64 to 1.12 floors, with one of 1.42, wrong ones 1.23 and more.
 pub(super) const MORE: f64 = 1.2;
-
-/// What is left of more than that is a part of what was missing, and the rest is not in the library, if so much of the
-/// excess is gone, and so much of the logarithm of the mean squared residual; else the name only resembles what is
-/// missing. Wrong names took away up to 0.965 of the excess.
-const EXPLAINED: f64 = 0.97;
-const NAMED: f64 = 0.5;
-
-/// A hundred times above the noise of the sensors no model of a real drive comes down to it, and what takes away half
-/// of the excess is a part of what is missing.
-const NO_NOISE: f64 = 1e4;
 
 /// What is known is so much better known than the record tells.
 const KNOWN: f64 = 1e9;
@@ -61,29 +52,22 @@ impl Walk<'_> {
         let hangs = !effects.is_empty() && self.hangs_together(&self.best);
         let unexplained = mostly[1] > MORE || struck || hangs;
         let mut map = if unexplained { self.map(context)? } else { None };
-        let (values, wrong) = self.values(rig, &|_| false)?;
+        let (mut values, mut parameters) = self.moved(rig)?;
+        if effects.is_empty()
+            && self.unsure_which(rig, &parameters)
+            && let Some(one) = self.one_wrong(rig)?
+        {
+            (values, parameters) = self.moved(rig)?;
+            for parameter in &mut parameters {
+                parameter.moved = parameter.found.name == one;
+            }
+        }
         for effect in &mut effects {
             effect.values = values
                 .iter()
                 .filter(|v| v.name.starts_with(&format!("{}.", effect.name)))
                 .map(|v| Value { name: v.name[effect.name.len() + 1..].to_owned(), ..v.clone() })
                 .collect();
-        }
-        let parameters: Vec<Moved> = values
-            .iter()
-            .filter(|v| !v.name.contains('.'))
-            .map(|found| {
-                let given = rig.value(&found.name).unwrap_or(f64::NAN);
-                let own = !self.board.loose.iter().any(|(name, _)| *name == found.name);
-                let surely = own && wrong.contains(&found.name) && moved(rig, found);
-                Moved { given, found: found.clone(), moved: surely }
-            })
-            .collect();
-        let mut parameters = parameters;
-        if parameters.iter().any(|p| p.moved) && !self.far(&parameters)? {
-            for parameter in &mut parameters {
-                parameter.moved = false;
-            }
         }
         let levels = ([first, nominal, last], mostly);
         let mut verdict = verdict(&effects, &parameters, levels, (struck, hangs));
@@ -115,8 +99,27 @@ impl Walk<'_> {
         })
     }
 
+    /// All free values of the last model, and which of those of `rig` moved further than nominal values are off.
+    fn moved(&self, rig: &Rig) -> Result<(Vec<Value>, Vec<Moved>), FitError> {
+        let (values, wrong) = self.values(rig, &|_| false)?;
+        let one = |found: &Value| {
+            let given = rig.value(&found.name).unwrap_or(f64::NAN);
+            let own = !self.board.loose.iter().any(|(name, _)| *name == found.name);
+            let surely = own && wrong.contains(&found.name) && moved(rig, found);
+            Moved { given, found: found.clone(), moved: surely }
+        };
+        let nominal = values.iter().filter(|v| !v.name.contains('.'));
+        let mut parameters: Vec<Moved> = nominal.map(one).collect();
+        if parameters.iter().any(|p| p.moved) && !self.far(&parameters)? {
+            for parameter in &mut parameters {
+                parameter.moved = false;
+            }
+        }
+        Ok((values, parameters))
+    }
+
     /// Whether the model is surely worse with the values that were given of what moved.
-    fn far(&self, parameters: &[Moved]) -> Result<bool, FitError> {
+    pub(super) fn far(&self, parameters: &[Moved]) -> Result<bool, FitError> {
         let mut rig = self.best.rig.clone();
         for moved in parameters.iter().filter(|p| p.moved) {
             identify::fit::binding::set(&mut rig, &moved.found.name, moved.given);
@@ -224,7 +227,7 @@ fn limits(start: &Gram, rig: &Rig) -> Vec<Limit> {
 
 /// Whether a model is surely worse on the judging blocks than another, by however small a share: among many channels
 /// and much noise a stiffness that is a fifth off leaves 4 % more.
-fn surely_worse(one: &Judged, other: &Judged) -> bool {
+pub(super) fn surely_worse(one: &Judged, other: &Judged) -> bool {
     one.against(other) > SURE && one.gained(other) > LEAST
 }
 
@@ -254,43 +257,15 @@ fn unit_of(rig: &Rig, channel: &str) -> &'static str {
 }
 
 /// Whether a nominal value was wrong by more than nominal values are, and surely.
-fn moved(rig: &Rig, found: &Value) -> bool {
+pub(super) fn moved(rig: &Rig, found: &Value) -> bool {
     let given = rig.value(&found.name).unwrap_or(f64::NAN);
     let away = (found.value - given).abs();
     away > 5.0 * found.standard_error && away > WRONG * given.abs() + drag(rig, &found.name)[1]
 }
 
-fn verdict(
-    effects: &[Found],
-    parameters: &[Moved],
-    ([before, refit, last], mostly): ([f64; 3], [f64; 2]),
-    (struck, hangs): (bool, bool),
-) -> Verdict {
-    // A few blocks that went astray say little.
-    let more = |mostly: f64| mostly > MORE;
-    if effects.is_empty() {
-        if struck || more(mostly[0]) {
-            return Verdict::NotInLibrary;
-        }
-        let wrong = parameters.iter().any(|p| p.moved) && before > refit * 1.05;
-        return if wrong { Verdict::Parameter } else { Verdict::NothingMissing };
-    }
-    // Noise that is not white leaves more than the floor, the same whatever moves; what takes away all but a hundredth of
-    // the excess is no part of something else.
-    let noisy = mostly[1] < NOISY && shrink(refit, last) > NEARLY_ALL;
-    if !more(mostly[1]) && !hangs || noisy && !struck {
-        return Verdict::Effect;
-    }
-    // What takes away a part of something else is not its name.
-    let named = (refit / last).ln() / refit.ln();
-    let real = refit > NO_NOISE && effects.iter().any(|effect| effect.shrink > MOST);
-    let part = shrink(refit, last) > EXPLAINED && named > NAMED;
-    if part || real { Verdict::Partial } else { Verdict::NotInLibrary }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Found, Judged, Verdict, surely, surely_worse, verdict};
+    use super::{Judged, surely, surely_worse};
     use nalgebra::DMatrix;
 
     #[test]
@@ -316,46 +291,5 @@ mod tests {
         assert!(surely_worse(&of(1.02, 0.01), &of(0.98, 0.008)));
         assert!(!surely_worse(&of(1.02, 0.2), &of(0.98, 0.008)), "in half of them it is better");
         assert!(!surely_worse(&of(0.982, 0.01), &of(0.98, 0.01)), "0.002 of them are seven");
-    }
-
-    #[test]
-    fn what_leaves_plenty_is_something_though_no_map_shows_where() {
-        let of =
-            |level: f64| verdict(&[], &[], ([90.0, level, level], [level, level]), (false, false));
-        assert_eq!(of(1.3), Verdict::NotInLibrary);
-        assert_eq!(of(1.1), Verdict::NothingMissing);
-    }
-
-    #[test]
-    fn what_a_name_leaves_of_a_small_excess_shows_that_it_only_resembles_it() {
-        let found = || Found {
-            name: "friction_drift",
-            set: vec!["friction_drift"],
-            values: Vec::new(),
-            shrink: 0.9,
-            t: 9.0,
-            separated_by: String::new(),
-        };
-        let hanging = |refit: f64, last: f64, hangs: bool| {
-            let levels = [900.0, refit, last];
-            verdict(&[found()], &[], (levels, [refit, last]), (false, hangs))
-        };
-        let of = |refit: f64, last: f64| hanging(refit, last, false);
-        // Two wrong names, of a soft gear and of a sensor that creeps, and three right ones.
-        for (refit, last) in [(6.07, 1.33), (4.21, 1.24)] {
-            assert_eq!(of(refit, last), Verdict::NotInLibrary, "{last} of {refit}");
-        }
-        for (refit, last) in [(379.0, 1.12), (8.43, 0.88), (4.46, 1.04)] {
-            assert_eq!(of(refit, last), Verdict::Effect, "{last} of {refit}");
-        }
-        // Noise that is not white leaves a little of a lot.
-        assert_eq!(of(94.0, 1.45), Verdict::Effect);
-        assert_eq!(of(94.0, 1.7), Verdict::Partial);
-        // What hangs together is no noise, however little it is: a name that leaves it explains no more than a part.
-        assert_eq!(hanging(3.67, 1.17, true), Verdict::NotInLibrary);
-        assert_eq!(hanging(40.0, 1.17, true), Verdict::Effect, "but for a hundredth");
-        assert_eq!(hanging(7.0, 1.17, true), Verdict::Partial);
-        // Much is left of much more.
-        assert_eq!(of(9000.0, 5.0), Verdict::Partial);
     }
 }

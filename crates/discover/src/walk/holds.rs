@@ -3,17 +3,20 @@
 use super::{
     ABOVE, ALIKE, End, FIRST, Walk,
     answer::MORE,
+    fewest::fewest,
     named::{SURE, UNSURE},
     polish::lacking,
     walked,
 };
 use crate::{
-    board::{Board, Fitted},
-    model::Candidate,
+    board::{self, Board, Fitted},
+    model::{self, Candidate},
+    screen::Scored,
     verdict::{Discovery, Options},
 };
 use identify::{
     Hold, Rig,
+    effects::Kind,
     fit::{Data, FitError, hold, starts},
 };
 use rayon::prelude::*;
@@ -27,12 +30,15 @@ const NOTABLY: f64 = 1.02;
 /// last one.
 pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitError> {
     let Some(told) = hold::told(rig, data)? else {
-        return walked(rig, data, &[], options).map(|end| end.found);
+        let first = walked((rig, board::loose(rig)), data, &[], options)?.found;
+        return fewest(rig, data, options, first);
     };
     let as_in = |hold: Hold| Data { hold, ..data.clone() };
     let with = |hold: Hold, others: &[Data]| -> Result<End, FitError> {
-        let end = walked(&rig.clone().saying(Some(hold)), &as_in(hold), others, options)?;
-        Ok(End { found: Discovery { hold: Some(hold), ..end.found }, ..end })
+        let (rig, data) = (rig.clone().saying(Some(hold)), as_in(hold));
+        let End { found, other } = walked((&rig, board::loose(&rig)), &data, others, options)?;
+        let found = if other.is_none() { fewest(&rig, &data, options, found)? } else { found };
+        Ok(End { found: Discovery { hold: Some(hold), ..found }, other })
     };
     let first = with(told.hold, &told.others.map(as_in))?;
     let Some(other) = first.other else { return Ok(first.found) };
@@ -84,8 +90,24 @@ impl Walk<'_> {
         if level(&near) < ABOVE {
             return Ok(None);
         }
-        let ways = self.other_ways(&near.rig, &near)?;
+        let mut ways = self.other_ways(&near.rig, &near)?;
+        if let Some(late) = self.late(&near.rig) {
+            ways.extend(self.other_ways(&late, &near)?);
+        }
         Ok(nearest(ways, |other| other.t > SURE && ALIKE * other.share < 1.0))
+    }
+
+    /// The model with its input half a sample late, as an input that is held is on the whole: one that is not held, and
+    /// comes late by about so much, is nearer to that than to one that is on time.
+    fn late(&self, rig: &Rig) -> Option<Rig> {
+        let data = self.board.data;
+        let delay = Kind::InputDelay;
+        if data.hold != Hold::ZeroOrder || !delay.applies(rig) {
+            return None;
+        }
+        let values = vec![data.sample_time() / 2.0];
+        let near = Fitted { rig: rig.clone(), ..self.best.clone() };
+        Some(model::with(&near, &Scored::unscored(delay, values)))
     }
 
     /// The way in which the record may be simpler, if there is one: the last model is nearer so, or is as near without
@@ -175,6 +197,31 @@ mod tests {
         let ways = [step, line];
         assert_eq!(asked(&bias, &ways[0], &ways[1..]), [Some(Hold::Linear); 2]);
         assert_eq!(asked(&bias, &ways[1], &ways[..1]), [None; 2]);
+    }
+
+    #[test]
+    fn an_input_that_comes_late_is_not_held_for_that() {
+        // Every sixteenth sample of an input that goes straight and comes 20 ms late: held it would be 40 ms.
+        let all = made::data();
+        let some = |values: &[f64], first: usize| -> Vec<f64> {
+            values[first..].iter().copied().step_by(16).take(240).collect()
+        };
+        let seen = &all.displacement.as_ref().expect("it is seen").values;
+        let with = |hold: Hold| {
+            let seen = Seen::new("position", some(seen, 0), 0.0);
+            Data::driven(some(&all.time, 0), some(&all.input, 4), hold, seen)
+        };
+        let [held, straight] = [with(Hold::ZeroOrder), with(Hold::Linear)];
+        let bias = made::with(&made::rig(2.0), identify::effects::Kind::CurrentBias, &[made::BIAS]);
+        let ways = [straight.clone()];
+        let mut walk = made::walk(&bias, &held, &[]);
+        walk.others = &ways;
+        assert_eq!(walk.turns(&[]).unwrap(), Some(Hold::Linear));
+        let late = walk.late(&bias).expect("it may be late");
+        assert!((late.value("input_delay.delay").unwrap() - 0.04).abs() < 1e-12);
+        assert!(
+            walk.late(&late).is_none() && made::walk(&bias, &straight, &[]).late(&bias).is_none()
+        );
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod answer;
 mod beam;
 mod candidates;
 mod exchange;
+mod fewest;
 mod forms;
 mod holds;
 mod joints;
@@ -15,6 +16,7 @@ mod named;
 mod places;
 mod plain;
 mod polish;
+mod says;
 mod springs;
 mod strayed;
 mod tone;
@@ -106,10 +108,14 @@ struct End {
 
 /// Looks for what the model `rig` of the record `data` lacks; whether the record is nearer with its input as in one of the `others`
 /// is asked on the way.
-fn walked(rig: &Rig, data: &Data, others: &[Data], options: &Options) -> Result<End, FitError> {
+fn walked(
+    (rig, mut loose): (&Rig, Vec<(String, f64)>),
+    data: &Data,
+    others: &[Data],
+    options: &Options,
+) -> Result<End, FitError> {
     let data = &*crate::rest::still(data);
     let fixed = Rig { free: Vec::new(), ..rig.clone() };
-    let mut loose = board::loose(rig);
     let mut held = board::loosened(rig, &loose);
     let (mut board, mut refit) = nominal(&held, data, &loose, options.seed)?;
     // What is given and not free may be a little off; what is far off is not the refit's to mend.

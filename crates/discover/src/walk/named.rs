@@ -142,7 +142,9 @@ fn sure(now: &Judged, judged: &Judged, (gone, round): (f64, usize)) -> bool {
         t >= CERTAIN || (gone > MOST && (now.everywhere(judged) >= CERTAIN || rarely()))
     } else {
         let most = if now.level() > GROSS { MUCH } else { MOST };
-        t >= SURE || (gone > most && t >= UNSURE) || (gone > ALL && rarely())
+        t >= SURE
+            || (gone > most && t >= UNSURE)
+            || (gone > ALL && (rarely() || now.everywhere(judged) >= CERTAIN))
     };
     let shows =
         round == 0 || now.level() > NOTHING || judged.level() < (1.0 - BESIDE) * now.level();
@@ -224,6 +226,12 @@ mod tests {
         assert!(found(&with(3, 2.5), &[rated(0, after())], 0).is_some());
         assert!(found(&with(2, 2.5), &[rated(0, after())], 0).is_none());
         assert!(found(&with(3, 2.5), &[rated(0, after())], 1).is_none(), "beside another effect");
+        // There it takes nearly all that is left in one block, and a little in every other one.
+        let mut all = with(1, 5e4);
+        all.blocks[1..].iter_mut().for_each(|block| *block *= 1.02);
+        assert!(all.against(&after()) < super::UNSURE);
+        assert!(found(&all, &[rated(0, after())], 1).is_some());
+        assert!(found(&with(1, 5e4), &[rated(0, after())], 1).is_none(), "one gone astray");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::{
     board::{Board, Fitted},
     nudge::{self, Left},
 };
-use identify::effects::Context;
+use identify::effects::{Context, WAVES};
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
@@ -22,10 +22,14 @@ const APART: f64 = 0.25;
 /// What is slower than this share of the largest speed says nothing of friction in sliding.
 const SLOW: f64 = 0.05;
 
-/// The wavenumbers [1/m] of the two waves that what a model leaves shows most of, for a force that repeats along the way
+/// Of so many waves a force, and a friction, that repeats is tried: parameters that are a little off make crests of
+/// their own, and of friction every wave is tried in several forms.
+const TRIED: [usize; 2] = [WAVES, 2];
+
+/// The wavenumbers [1/m] of the waves that what a model leaves shows most of, for a force that repeats along the way
 /// and for a friction that does; 0 where there are none.
-pub(super) fn waves(board: &Board<'_>, fitted: &Fitted, context: &Context) -> [[f64; 2]; 2] {
-    let Some(left) = nudge::left(&fitted.held(), board.data) else { return [[0.0; 2]; 2] };
+pub(super) fn waves(board: &Board<'_>, fitted: &Fitted, context: &Context) -> [[f64; WAVES]; 2] {
+    let Some(left) = nudge::left(&fitted.held(), board.data) else { return [[0.0; WAVES]; 2] };
     let step = context.sample_time * context.speed;
     let many = (context.span / (SAMPLES * step)).clamp(1.0, MOST);
     let way = Way::of(&left, context);
@@ -33,16 +37,20 @@ pub(super) fn waves(board: &Board<'_>, fitted: &Fitted, context: &Context) -> [[
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1600")]
     let tried: Vec<f64> = (1..=(many / APART) as usize).map(|i| each * (i as f64 + 1.0)).collect();
     let gains: Vec<[f64; 2]> = tried.par_iter().map(|k| way.gains(*k)).collect();
-    [0, 1].map(|kind| crests(&tried, &gains.iter().map(|both| both[kind]).collect::<Vec<f64>>()))
+    [0, 1].map(|kind| {
+        let own: Vec<f64> = gains.iter().map(|both| both[kind]).collect();
+        crests(&tried, &own, TRIED[kind])
+    })
 }
 
-/// The two largest of the local maxima.
-fn crests(at: &[f64], gains: &[f64]) -> [f64; 2] {
+/// The largest of the local maxima, so `many`.
+fn crests(at: &[f64], gains: &[f64], many: usize) -> [f64; WAVES] {
     let own = |i: usize| gains.get(i).copied().unwrap_or(0.0);
     let crest = |i: &usize| (*i == 0 || own(*i) >= own(i - 1)) && own(*i) > own(i + 1);
     let mut all: Vec<usize> = (0..gains.len()).filter(crest).collect();
     all.sort_by(|a, b| gains[*b].total_cmp(&gains[*a]));
-    [0, 1].map(|n| all.get(n).map_or(0.0, |i| at[*i]))
+    all.truncate(many);
+    std::array::from_fn(|n| all.get(n).map_or(0.0, |i| at[*i]))
 }
 
 /// A line for each direction of the motion, and a wave of two kinds.
@@ -150,7 +158,8 @@ mod tests {
                 (1..200).map(|i| APART * TAU * f64::from(i) / context.span).collect();
             let gains: Vec<[f64; 2]> = tried.iter().map(|k| way.gains(*k)).collect();
             let of = |kind: usize| gains.iter().map(|both| both[kind]).collect::<Vec<f64>>();
-            let [first, _] = crests(&tried, &of(usize::from(friction)));
+            let [first, second, third, ..] = crests(&tried, &of(usize::from(friction)), 2);
+            assert!(second > 0.0 && third == 0.0, "as many as are asked for");
             assert!((first / k - 1.0).abs() < 0.5 * APART / 23.5, "{first} 1/m of {k}");
             let most = |kind| of(usize::from(kind)).into_iter().fold(0.0, f64::max);
             assert!(most(friction) > 5.0 * most(!friction), "the other kind shows less");

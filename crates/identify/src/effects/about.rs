@@ -148,6 +148,9 @@ impl Key {
     }
 }
 
+/// So many wavenumbers that a record shows most of are kept.
+pub const WAVES: usize = 6;
+
 /// The sizes of a record, in which effects are measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Context {
@@ -182,7 +185,7 @@ pub struct Context {
     /// Whether the displacement may be the motor's, with a load hidden beyond it.
     pub hidden: bool,
     /// The wavenumbers that the record shows most of, in a force and in friction; 0 for none [1/m].
-    pub waves: [[f64; 2]; 2],
+    pub waves: [[f64; WAVES]; 2],
 }
 
 impl Context {

@@ -11,7 +11,7 @@ mod family;
 mod hooks;
 mod joint;
 
-pub use about::{About, Channel, Context, Key, Measure, Shape, Sign};
+pub use about::{About, Channel, Context, Key, Measure, Shape, Sign, WAVES};
 pub use hooks::{Act, Acts, At, LONG, Law, Load, Past, Sense, Term};
 pub use joint::Joint;
 pub(crate) use joint::hides_load;
@@ -190,7 +190,11 @@ effects! {
 }
 
 /// The wavenumbers of so many half periods over the record's stretch, and those that it shows most of.
-fn wavenumbers(context: &Context, halves: RangeInclusive<u32>, seen: [f64; 2]) -> Vec<Vec<f64>> {
+fn wavenumbers(
+    context: &Context,
+    halves: RangeInclusive<u32>,
+    seen: [f64; WAVES],
+) -> Vec<Vec<f64>> {
     let one = std::f64::consts::PI / context.span;
     let most = one * f64::from(*halves.end());
     let long = halves.map(|j| f64::from(j) * one);

@@ -1,0 +1,149 @@
+//! Of several values that moved together, the one that has to.
+//!
+//! Along a ridge of the misfit, as of many elements in parallel, a fit moves several parameters far where one is wrong,
+//! or none: then an effect beside values that are all a little off explains the record as well.
+
+use super::{
+    REFIT, Walk,
+    answer::{moved, surely_worse},
+    walked,
+};
+use crate::{
+    board::{self, Board, Fitted},
+    verdict::{Discovery, Moved, Options, Verdict},
+};
+use identify::{
+    Rig,
+    fit::{Data, FitError, binding, starts},
+};
+use rayon::prelude::*;
+use std::mem;
+
+/// An answer with no moved parameter leaves no more than so many times what one with several does.
+const AS_MUCH: f64 = 1.02;
+
+/// What is a little off at most is no further from its given value, in its logarithm.
+const STRAYED: f64 = 0.1;
+
+/// Whether several parameters moved.
+pub(super) fn several(parameters: &[Moved]) -> bool {
+    parameters.iter().filter(|p| p.moved).count() > 1
+}
+
+/// The answer `first`, or where it says that several parameters are wrong one that names an effect, with all of them a
+/// little off at most.
+pub(super) fn fewest(
+    rig: &Rig,
+    data: &Data,
+    options: &Options,
+    first: Discovery,
+) -> Result<Discovery, FitError> {
+    if first.verdict != Verdict::Parameter || !several(&first.parameters) {
+        return Ok(first);
+    }
+    let tied = board::tied(rig);
+    let mut held = rig.clone();
+    held.free.retain(|name| !tied.iter().any(|(tied, _)| tied == name));
+    let second = walked((&held, tied), data, &[], options)?.found;
+    let one = second.verdict == Verdict::Effect && second.effects.len() == 1;
+    let left = |found: &Discovery| found.chi_squared[2];
+    let as_near = left(&second) < AS_MUCH * left(&first).max(1.0);
+    let off = |p: &Moved| p.moved || (p.found.value / p.given).ln().abs() > STRAYED;
+    let stays = !second.parameters.iter().filter(|p| p.given > 0.0).any(off);
+    Ok(if one && as_near && stays { second } else { first })
+}
+
+impl Walk<'_> {
+    /// Whether it must be asked which parameter is wrong: several moved together, or none is told from what all nominal
+    /// values may be off, and yet some are far from theirs.
+    pub(super) fn unsure_which(&self, rig: &Rig, parameters: &[Moved]) -> bool {
+        let own = |p: &&Moved| !self.board.loose.iter().any(|(name, _)| *name == p.found.name);
+        let none = parameters.iter().all(|p| !p.moved);
+        several(parameters) || none && parameters.iter().filter(own).any(|p| moved(rig, &p.found))
+    }
+
+    /// The parameter that alone is wrong, and the model in which the others are a little off at most for the last one,
+    /// if it is surely no worse.
+    pub(super) fn one_wrong(&mut self, rig: &Rig) -> Result<Option<String>, FitError> {
+        let mut tied = board::tied(rig);
+        tied.retain(|(name, _)| !self.board.loose.iter().any(|(loose, _)| loose == name));
+        let with = |name: &str| -> Board<'_> {
+            let own = tied.iter().filter(|(tied, _)| tied != name);
+            let loose = own.chain(&self.board.loose).cloned().collect();
+            Board { loose, ..self.board.clone() }
+        };
+        let mut start = self.best.rig.clone();
+        for (name, given) in tied.iter().chain(&self.board.loose) {
+            binding::set(&mut start, name, *given);
+        }
+        let alone = |(name, _): &(String, f64)| -> Result<(String, Fitted), FitError> {
+            let board = with(name);
+            // From where it went to: the way from a value that is far off may end elsewhere.
+            let mut start = start.clone();
+            binding::set(&mut start, name, self.best.rig.value(name).unwrap_or(f64::NAN));
+            let x = starts::nominal(&board.problem(&start, |_| true)?);
+            Ok((name.clone(), board.fit(&start, Some((&x, &self.best.pieces)), &REFIT)?))
+        };
+        let all: Vec<_> = tied.par_iter().map(alone).collect::<Result<_, _>>()?;
+        let now = self.judged(&self.best.blocks);
+        let stays = |(name, fitted): &(String, Fitted)| {
+            let worse = surely_worse(&self.judged(&fitted.blocks), &now);
+            !worse && with(name).strayed(fitted).is_empty()
+        };
+        let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
+        let nearest = all.into_iter().filter(stays);
+        let nearest = nearest.min_by(|a, b| level(&a.1).total_cmp(&level(&b.1)));
+        let Some((name, fitted)) = nearest else { return Ok(None) };
+        let loose = with(&name).loose;
+        let best = mem::replace(&mut self.best, fitted);
+        let before = mem::replace(&mut self.board.loose, loose);
+        let found = self.values(rig, &|_| false)?.0.into_iter().find(|v| v.name == name);
+        // Whether the others could be so in its place is asked with them as free as they were.
+        let fitted = mem::replace(&mut self.best, best);
+        let loose = mem::replace(&mut self.board.loose, before);
+        let given = rig.value(&name).unwrap_or(f64::NAN);
+        let Some(found) = found.filter(|found| moved(rig, found)) else { return Ok(None) };
+        if !self.far(&[Moved { given, found, moved: true }])? {
+            return Ok(None);
+        }
+        self.best = fitted;
+        self.board.loose.clone_from(&loose);
+        self.short.loose = loose;
+        Ok(Some(name))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::several;
+    use crate::walk::made;
+    use identify::{Rig, effects::Kind, fit::binding};
+
+    #[test]
+    fn of_several_that_moved_along_a_valley_the_one_that_has_to_is_wrong() {
+        // Under one sine only k - 4m is seen: 3 - 8 N/m is that of 5.4 and 10.4. The drag of 0.5 N·s/m was given as 0.8.
+        let data = made::data();
+        let given = made::with(&made::rig(2.0), Kind::CurrentBias, &[made::BIAS]);
+        let free = ["mass", "stiffness", "sigma_2"].map(str::to_owned);
+        let mut given = Rig { free: free.to_vec(), ..given };
+        binding::set(&mut given, "sigma_2", 0.8);
+        let mut found = given.clone();
+        for (name, value) in [("mass", 2.6), ("stiffness", 5.4), ("sigma_2", 0.5)] {
+            binding::set(&mut found, name, value);
+        }
+        let mut walk = made::walk(&given, &data, &[]);
+        walk.best = walk.board.judged(&found, None).unwrap();
+        assert_eq!(walk.one_wrong(&given).unwrap().as_deref(), Some("sigma_2"));
+        let value = |name: &str| walk.best.rig.value(name).unwrap();
+        assert!((value("sigma_2") - 0.5).abs() < 0.01, "{}", value("sigma_2"));
+        assert!((value("mass") - 2.0).abs() < 0.05, "{}", value("mass"));
+        // Where none has to, all stays.
+        let mut right = given.clone();
+        binding::set(&mut right, "sigma_2", 0.5);
+        let mut walk = made::walk(&right, &data, &[]);
+        walk.best = walk.board.judged(&found, None).unwrap();
+        assert_eq!(walk.one_wrong(&right).unwrap(), None);
+        assert!((walk.best.rig.value("mass").unwrap() - 2.6).abs() < 1e-12);
+        assert!(!several(&[]));
+    }
+}
