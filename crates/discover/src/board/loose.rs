@@ -71,6 +71,11 @@ pub(crate) fn loosened(rig: &Rig, loose: &[(String, f64)]) -> Rig {
     Rig { free: rig.free.iter().cloned().chain(more).collect(), ..rig.clone() }
 }
 
+/// Whether a value is further from the one `given` than what is a little off.
+pub(crate) fn strays(value: f64, given: f64) -> bool {
+    value <= 0.0 || (value / given).ln().abs() > STRAYED * LOOSE
+}
+
 impl Board<'_> {
     /// The parameters that were held near their given values and went far from them all the same.
     pub(crate) fn strayed(&self, fitted: &Fitted) -> Vec<String> {
@@ -79,7 +84,7 @@ impl Board<'_> {
             if name == OFFSET {
                 (value - given).abs() > STRAYED * LOOSE * prestress(&fitted.rig)
             } else {
-                value <= 0.0 || (value / given).ln().abs() > STRAYED * LOOSE
+                strays(value, *given)
             }
         };
         self.loose.iter().filter(away).map(|(name, _)| name.clone()).collect()

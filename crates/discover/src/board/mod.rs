@@ -6,7 +6,7 @@ mod race;
 mod steps;
 
 pub(crate) use ahead::Ahead;
-pub(crate) use loose::{loose, loosened, tied};
+pub(crate) use loose::{loose, loosened, strays, tied};
 pub(crate) use steps::{FINE, ROUGH};
 
 use identify::{

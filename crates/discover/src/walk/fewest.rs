@@ -22,9 +22,6 @@ use std::mem;
 /// An answer with no moved parameter leaves no more than so many times what one with several does.
 const AS_MUCH: f64 = 1.02;
 
-/// What is a little off at most is no further from its given value, in its logarithm.
-const STRAYED: f64 = 0.1;
-
 /// Whether several parameters moved.
 pub(super) fn several(parameters: &[Moved]) -> bool {
     parameters.iter().filter(|p| p.moved).count() > 1
@@ -48,7 +45,7 @@ pub(super) fn fewest(
     let one = second.verdict == Verdict::Effect && second.effects.len() == 1;
     let left = |found: &Discovery| found.chi_squared[2];
     let as_near = left(&second) < AS_MUCH * left(&first).max(1.0);
-    let off = |p: &Moved| p.moved || (p.found.value / p.given).ln().abs() > STRAYED;
+    let off = |p: &Moved| p.moved || board::strays(p.found.value, p.given);
     let stays = !second.parameters.iter().filter(|p| p.given > 0.0).any(off);
     Ok(if one && as_near && stays { second } else { first })
 }
