@@ -266,6 +266,9 @@ impl<'a> Board<'a> {
     ) -> Result<Fitted, FitError> {
         let Some(short) = short else { return self.fit(rig, None, patience) };
         let problem = short.problem(rig, |k| short.trains[k])?;
+        if problem.free.is_empty() {
+            return self.judged(rig, None);
+        }
         let found = descend(&problem, (&starts::nominal(&problem), None), patience);
         self.fit(&with_values(rig, &problem, &found.x), None, patience)
     }

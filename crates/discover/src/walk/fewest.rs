@@ -4,7 +4,7 @@
 //! or none: then an effect beside values that are all a little off explains the record as well.
 
 use super::{
-    REFIT, Walk,
+    GROSS, REFIT, Walk,
     answer::{moved, surely_worse},
     walked,
 };
@@ -35,14 +35,16 @@ pub(super) fn fewest(
     options: &Options,
     first: Discovery,
 ) -> Result<Discovery, FitError> {
-    if first.verdict != Verdict::Parameter || !several(&first.parameters) {
+    let near = first.verdict == Verdict::NotInLibrary && first.chi_squared[2] < GROSS;
+    if !(near || first.verdict == Verdict::Parameter) || !several(&first.parameters) {
         return Ok(first);
     }
     let tied = board::tied(rig);
     let mut held = rig.clone();
     held.free.retain(|name| !tied.iter().any(|(tied, _)| tied == name));
     let second = walked((&held, tied), data, &[], options)?.found;
-    let one = second.verdict == Verdict::Effect && second.effects.len() == 1;
+    let named = matches!(second.verdict, Verdict::Effect | Verdict::Partial);
+    let one = named && second.effects.len() == 1;
     let left = |found: &Discovery| found.chi_squared[2];
     let as_near = left(&second) < AS_MUCH * left(&first).max(1.0);
     let off = |p: &Moved| p.moved || board::strays(p.found.value, p.given);
@@ -112,8 +114,11 @@ impl Walk<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::several;
-    use crate::walk::made;
+    use super::{fewest, several};
+    use crate::{
+        verdict::{Discovery, Moved, Options, Value, Verdict},
+        walk::made,
+    };
     use identify::{Rig, effects::Kind, fit::binding};
 
     #[test]
@@ -142,5 +147,44 @@ mod tests {
         assert_eq!(walk.one_wrong(&right).unwrap(), None);
         assert!((walk.best.rig.value("mass").unwrap() - 2.6).abs() < 1e-12);
         assert!(!several(&[]));
+    }
+
+    /// An answer with two wrong parameters that leaves so much.
+    fn two_wrong(rig: &Rig, verdict: Verdict, left: f64) -> Discovery {
+        let one = |name: &str| {
+            let value = Value { name: name.to_owned(), value: 9.0, standard_error: 0.1, unit: "" };
+            Moved { given: 2.0, found: value, moved: true }
+        };
+        Discovery {
+            verdict,
+            parameters: ["mass", "stiffness"].map(one).to_vec(),
+            effects: Vec::new(),
+            gap: Vec::new(),
+            shares: Vec::new(),
+            map: None,
+            tone: None,
+            ranking: Vec::new(),
+            detectability: Vec::new(),
+            chi_squared: [90.0, left, left],
+            hold: None,
+            rig: rig.clone(),
+        }
+    }
+
+    #[test]
+    fn one_effect_with_all_values_near_theirs_is_nearer_than_two_wrong_parameters() {
+        let (data, rig) = (made::data(), made::rig(2.02));
+        let rig = Rig { free: ["mass", "stiffness"].map(str::to_owned).to_vec(), ..rig };
+        let of = |verdict: Verdict, left: f64| {
+            let first = two_wrong(&rig, verdict, left);
+            let found = fewest(&rig, &data, &Options::default(), first).unwrap();
+            (found.verdict, found.effects.iter().map(|e| e.name).collect::<Vec<_>>())
+        };
+        let bias = (Verdict::Effect, vec!["current_bias"]);
+        assert_eq!(of(Verdict::Parameter, 1.0), bias);
+        assert_eq!(of(Verdict::NotInLibrary, 1.1), bias);
+        // Far from the record nothing is known of the parameters, and a name stays one.
+        assert_eq!(of(Verdict::NotInLibrary, 90.0).0, Verdict::NotInLibrary);
+        assert_eq!(of(Verdict::Effect, 1.1).1, ["current_bias"; 0]);
     }
 }

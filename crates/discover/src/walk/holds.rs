@@ -37,13 +37,18 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
     let with = |hold: Hold, others: &[Data]| -> Result<End, FitError> {
         let (rig, data) = (rig.clone().saying(Some(hold)), as_in(hold));
         let End { found, other } = walked((&rig, board::loose(&rig)), &data, others, options)?;
-        let found = if other.is_none() { fewest(&rig, &data, options, found)? } else { found };
         Ok(End { found: Discovery { hold: Some(hold), ..found }, other })
     };
     let first = with(told.hold, &told.others.map(as_in))?;
-    let Some(other) = first.other else { return Ok(first.found) };
-    let second = with(other, &[])?.found;
-    Ok(if simpler(&second, &first.found) { second } else { first.found })
+    let (mut hold, mut found) = (told.hold, first.found);
+    if let Some(other) = first.other {
+        let second = with(other, &[])?.found;
+        if simpler(&second, &found) {
+            (hold, found) = (other, second);
+        }
+    }
+    let found = fewest(&rig.clone().saying(Some(hold)), &as_in(hold), options, found)?;
+    Ok(Discovery { hold: Some(hold), ..found })
 }
 
 /// A model refitted to the record with its input another way.

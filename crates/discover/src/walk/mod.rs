@@ -339,6 +339,9 @@ impl Walk<'_> {
             let beside = self.beside(&all, context);
             all.extend(self.finely(beside)?);
             all = self.told_apart(&now, all, context)?;
+        } else if self.joins && now.level() <= ABOVE {
+            let gives = self.nearly_rigid(context);
+            all.extend(self.finely(gives)?);
         }
         let others = self.other_forms(&all, context);
         all.extend(self.finely(others)?);

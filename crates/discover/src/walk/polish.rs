@@ -210,10 +210,10 @@ impl<'a> Walk<'a> {
         for place in (0..effects.len()).rev() {
             let name = effects[place].name;
             let Some(kind) = kind_of(name) else { continue };
-            // What smoothly goes on with a long time is the same line with many amounts, and there all the same.
-            let smooth = kind.tried().is_empty();
+            // What goes on with a long time is the same line with many amounts, and a gear that gives way a little shows by
+            // that times the mass of its load: there all the same.
             let shape = |own: &str| key_of(kind, own).is_some_and(|k| k.shape != Shape::Amount);
-            let (values, _) = self.values(rig, &|own| smooth && shape(own))?;
+            let (values, _) = self.values(rig, &shape)?;
             let sure = |key: &Key| {
                 let name = format!("{name}.{}", key.name);
                 let own = values.iter().find(|value| value.name == name);
