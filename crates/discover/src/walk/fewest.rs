@@ -155,20 +155,8 @@ mod tests {
             let value = Value { name: name.to_owned(), value: 9.0, standard_error: 0.1, unit: "" };
             Moved { given: 2.0, found: value, moved: true }
         };
-        Discovery {
-            verdict,
-            parameters: ["mass", "stiffness"].map(one).to_vec(),
-            effects: Vec::new(),
-            gap: Vec::new(),
-            shares: Vec::new(),
-            map: None,
-            tone: None,
-            ranking: Vec::new(),
-            detectability: Vec::new(),
-            chi_squared: [90.0, left, left],
-            hold: None,
-            rig: rig.clone(),
-        }
+        let parameters = ["mass", "stiffness"].map(one).to_vec();
+        Discovery { parameters, ..made::answer(rig, verdict, left) }
     }
 
     #[test]

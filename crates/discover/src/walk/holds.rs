@@ -36,8 +36,7 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
     let as_in = |hold: Hold| Data { hold, ..data.clone() };
     let with = |hold: Hold, others: &[Data]| -> Result<End, FitError> {
         let (rig, data) = (rig.clone().saying(Some(hold)), as_in(hold));
-        let End { found, other } = walked((&rig, board::loose(&rig)), &data, others, options)?;
-        Ok(End { found: Discovery { hold: Some(hold), ..found }, other })
+        walked((&rig, board::loose(&rig)), &data, others, options)
     };
     let first = with(told.hold, &told.others.map(as_in))?;
     let (mut hold, mut found) = (told.hold, first.found);
@@ -163,20 +162,7 @@ mod tests {
         let mut rig = made::rig(2.0);
         let bias = made::with(&rig, identify::effects::Kind::CurrentBias, &[made::BIAS]);
         rig.effects = vec![bias.effects[0].clone(); effects];
-        Discovery {
-            verdict: Verdict::Effect,
-            parameters: Vec::new(),
-            effects: Vec::new(),
-            gap: Vec::new(),
-            shares: Vec::new(),
-            map: None,
-            tone: None,
-            ranking: Vec::new(),
-            detectability: Vec::new(),
-            chi_squared: [9.0, 9.0, left],
-            hold: None,
-            rig,
-        }
+        made::answer(&rig, Verdict::Effect, left)
     }
 
     /// Whether a model turns, and whether it may be simpler otherwise.

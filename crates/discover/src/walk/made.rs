@@ -3,7 +3,7 @@
 use super::Walk;
 use crate::{
     board::{Board, Fitted},
-    verdict::Found,
+    verdict::{Discovery, Found, Verdict},
 };
 use identify::{
     Hold, Rig,
@@ -87,6 +87,24 @@ pub(super) fn context(walk: &Walk<'_>) -> Context {
 pub(super) fn found(name: &'static str) -> Found {
     let (values, separated_by) = (Vec::new(), String::new());
     Found { name, set: vec![name], values, shrink: 0.9, t: 9.0, separated_by }
+}
+
+/// An answer with a model that leaves so much, and nothing else.
+pub(super) fn answer(rig: &Rig, verdict: Verdict, left: f64) -> Discovery {
+    Discovery {
+        verdict,
+        parameters: Vec::new(),
+        effects: Vec::new(),
+        gap: Vec::new(),
+        shares: Vec::new(),
+        map: None,
+        tone: None,
+        ranking: Vec::new(),
+        detectability: Vec::new(),
+        chi_squared: [9.0, 9.0, left],
+        hold: None,
+        rig: rig.clone(),
+    }
 }
 
 /// Dry friction of 1.5 N to 1 mN, forth and back with rests between, to so many metres.
