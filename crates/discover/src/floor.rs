@@ -3,8 +3,15 @@
 use crate::board::{Board, Fitted};
 use identify::{
     Rig,
-    fit::{Data, FitError, data::Seen, models, problem::Piece, whitening::Whitening},
-    march::Feedback,
+    fit::{
+        Data, FitError,
+        data::Seen,
+        models,
+        problem::{Piece, Problem},
+        shaken::Shaken,
+        whitening::Whitening,
+    },
+    march::{Contact, Feedback},
 };
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -13,47 +20,59 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// How many times the input is perturbed by its own noise.
-const TIMES: u64 = 4;
+const TIMES: u64 = 16;
 
 /// How many samples to either side tell of one sample's spread.
-const AROUND: usize = 5;
+const AROUND: usize = 1;
 
-/// By how much every sample spreads because the input is noisy: displacement (or force) and velocity, each in its
-/// unit. Break-aways and turns are noisier than the rest, so that this is local in time.
-pub(crate) fn spread(
-    board: &Board<'_>,
-    fitted: &Fitted,
-    seed: u64,
-) -> Result<Vec<[f64; 2]>, FitError> {
-    let noise = noise_of_input(board.data, &fitted.rig);
-    if noise <= 0.0 {
-        return Ok(Vec::new());
-    }
-    let board = &Board { spread: Vec::new(), ..board.clone() };
+/// So many samples that move tell their noise.
+const LITTLE: usize = 64;
+
+/// By how much every sample spreads beside what makes the rest independent: force [N] and none.
+type Floor = (Vec<[f64; 2]>, Option<Arc<Whitening>>);
+
+/// What the noise of an imposed displacement makes of a model's force: by how much every sample spreads beside what
+/// follows from it to first order [N], and what makes the rest independent. Turns are noisier than the rest, so that
+/// this is local in time.
+pub(crate) fn imposed(board: &Board<'_>, fitted: &Fitted, seed: u64) -> Result<Floor, FitError> {
+    let board = &Board { spread: Vec::new(), whitening: None, ..board.clone() };
     let rig = fitted.held();
     let problem = board.problem(&rig, |_| true)?;
+    let contact = &problem.model(&[]).contact;
+    let Some(shaken) = problem.shaken(&[], noise_of_displacement(&board.data.input)) else {
+        return Ok((timed(board.data, contact, Vec::new()), None));
+    };
     let here = models::settled(&problem, &[], Some(&fitted.pieces), 1);
-    let draws: Result<Vec<Vec<[f64; 2]>>, FitError> = (0..TIMES)
+    let draws: Result<Vec<Vec<f64>>, FitError> = (0..TIMES)
         .into_par_iter()
-        .map(|time| one(board, (&rig, &here), (noise, seed.wrapping_add(time))))
+        .map(|time| one(board, (&rig, &here[0]), (&shaken, seed.wrapping_add(time))))
         .collect();
     let n = board.data.time.len();
-    let mut sum = vec![[0.0; 2]; n + 1];
+    let mut sum = vec![0.0; n + 1];
     for draw in draws? {
         for (sum, d) in sum[1..].iter_mut().zip(&draw) {
-            *sum = [sum[0] + d[0] * d[0], sum[1] + d[1] * d[1]];
+            *sum += d * d;
         }
     }
     for i in 0..n {
-        let before = sum[i];
-        sum[i + 1] = [sum[i + 1][0] + before[0], sum[i + 1][1] + before[1]];
+        sum[i + 1] += sum[i];
     }
     let local = |i: usize| {
         let (low, high) = (i.saturating_sub(AROUND), (i + AROUND + 1).min(n));
         let count = (high - low) as f64 * TIMES as f64;
-        [0, 1].map(|c| ((sum[high][c] - sum[low][c]).max(0.0) / count).sqrt())
+        [((sum[high] - sum[low]).max(0.0) / count).sqrt(), 0.0]
     };
-    Ok((0..n).map(local).collect())
+    let spread = timed(board.data, contact, (0..n).map(local).collect());
+    let weighed = Problem { spread: &spread, ..problem };
+    let whitening = shaken.whitening(&weighed).map(Arc::new);
+    Ok((spread, whitening))
+}
+
+/// Standard deviation of the noise of an imposed displacement [m], of what moves of it: where it rests it is its mean.
+fn noise_of_displacement(u: &[f64]) -> f64 {
+    let moving = u.chunk_by(|a, b| a == b).filter(|run| run.len() < crate::rest::LEAST);
+    let moving: Vec<f64> = moving.flatten().copied().collect();
+    identify::doctor::noise(if moving.len() > LITTLE { &moving } else { u })
 }
 
 /// What makes the residuals of every window independent of each other: on its way through the model the noise of the
@@ -92,49 +111,49 @@ fn noise_of_input(data: &Data, rig: &Rig) -> f64 {
     (middle / MIDDLE).min(least)
 }
 
-/// By what one draw of the input's noise moves every sample.
+/// By what one draw of the displacement's noise moves the force of every sample, less what it does to first order [N].
 fn one(
     board: &Board<'_>,
-    (rig, undisturbed): (&Rig, &[Piece]),
-    (noise, seed): (f64, u64),
-) -> Result<Vec<[f64; 2]>, FitError> {
+    (rig, undisturbed): (&Rig, &Piece),
+    (shaken, seed): (&Shaken, u64),
+) -> Result<Vec<f64>, FitError> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let (errors, first) = shaken.drawn(&mut || StandardNormal.sample(&mut random));
     let mut data: Data = board.data.clone();
-    for u in &mut data.input {
-        let drawn: f64 = StandardNormal.sample(&mut random);
-        *u += noise * drawn;
-    }
-    if board.imposed() {
-        // It is seen as the record itself is: where it rests, noise does not shake it.
-        data = crate::rest::rested(&data);
+    for (u, error) in data.input.iter_mut().zip(errors) {
+        *u += error;
     }
     let other = Board { data: &data, ..board.clone() };
     let problem = other.problem(rig, |_| true)?;
-    let pieces = models::settled(&problem, &[], Some(undisturbed), 1);
-    let mut moved = vec![[0.0; 2]; data.time.len()];
-    for ((window, there), here) in problem.windows.iter().zip(&pieces).zip(undisturbed) {
-        for i in 0..window.len() {
-            let off = |a: &[f64], b: &[f64]| match (a.get(i), b.get(i)) {
-                (Some(a), Some(b)) => a - b,
-                _ => 0.0,
-            };
-            moved[window.first + i] =
-                [off(&there.motion.q, &here.motion.q), off(&there.motion.v, &here.motion.v)];
-        }
-    }
-    Ok(moved)
+    let there = models::settled(&problem, &[], Some(std::slice::from_ref(undisturbed)), 1);
+    let pairs = there[0].motion.q.iter().zip(&undisturbed.motion.q).zip(first);
+    Ok(pairs.map(|((there, here), first)| there - here - first).collect())
 }
 
-/// How well the time of a sample is known, in sampling times.
-const TIMING: f64 = 0.1;
+/// How well the time of a sample is known, in sampling times: at a corner there are two velocities, and a friction that
+/// turns at once does so between two samples.
+const CORNER: f64 = 2.0;
+const TURN: f64 = 0.1;
 
 /// The spread with that of a force that changes from sample to sample: one at a turn is worth what its time is.
-pub(crate) fn timed(data: &Data, spread: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+pub(crate) fn timed(data: &Data, contact: &Contact<f64>, spread: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let Some(force) = &data.force else { return spread };
     let f = &force.values;
-    // At a corner there are two velocities.
     let corners = identify::fit::corners(&data.input);
-    let known = |i: usize| if corners[i] { 2.0 } else { TIMING };
+    let turn = if matches!(contact, Contact::Coulomb { .. }) { TURN } else { 0.0 };
+    let u = &data.input;
+    let step = |i: usize| u.get(i + 1).map_or(0.0, |next| next - u[i]);
+    let turned = |i: usize| i > 0 && step(i - 1) * step(i) <= 0.0;
+    let turns = |i: usize| (i.saturating_sub(1)..i + 2).any(turned);
+    let known = |i: usize| {
+        if corners[i] {
+            CORNER
+        } else if turns(i) {
+            turn
+        } else {
+            0.0
+        }
+    };
     let of =
         |i: usize| known(i) * 0.5 * (f[(i + 1).min(f.len() - 1)] - f[i.saturating_sub(1)]).abs();
     let own = |i: usize| spread.get(i).copied().unwrap_or([0.0; 2]);
@@ -227,8 +246,8 @@ fn by_middle(mut values: Vec<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{
-        Board, ChaCha8Rng, Data, Distribution, Rig, SeedableRng, Seen, StandardNormal, noise,
-        spread,
+        Board, ChaCha8Rng, Data, Distribution, Rig, SeedableRng, Seen, StandardNormal, imposed,
+        noise,
     };
 
     #[test]
@@ -290,7 +309,7 @@ mod tests {
         let rig = Rig::parse(rig).unwrap();
         let board = Board::of(&rig, &data, 1, Vec::new()).unwrap();
         let fitted = board.judged(&rig, None).unwrap();
-        let all = spread(&board, &fitted, 1).unwrap();
+        let (all, _) = imposed(&board, &fitted, 1).unwrap();
         // Away from the turns, whose time noise does move.
         let resting = (0..8000).filter(|i| (20..80).contains(&(i % 200)));
         let worst = resting.map(|i| all[i][0]).fold(0.0, f64::max);

@@ -61,7 +61,7 @@ pub fn residual(rig: &Rig, data: &Data, seed: u64) -> Option<Residual> {
     };
     let force = run(&seen)?;
     // Beside the noise of the force itself one that turns is worth what its time is.
-    let turns = timed(data, Vec::new());
+    let turns = timed(data, &model.contact, Vec::new());
     let own = |i: usize| match &data.force {
         Some(seen) => seen.noise.hypot(turns[i][0]),
         None => 0.0,

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 /// What lies within so many standard deviations of the noise, over at least so many samples, may be at rest.
 const WITHIN: f64 = 7.0;
-const LEAST: usize = 10;
+pub(crate) const LEAST: usize = 10;
 
 /// A slope of so many standard errors is a motion.
 const MOVING: f64 = 4.0;

@@ -136,7 +136,7 @@ fn fitted(rig: &Rig, data: &Data) -> (Found, Vec<f64>) {
         windows,
         closed_loop: false,
         memory: 1.0 / 1e3,
-        counts: Vec::new(),
+        shares: Vec::new(),
         priors: Vec::new(),
         weights,
         spread: &[],

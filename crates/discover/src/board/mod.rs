@@ -20,10 +20,12 @@ use identify::{
         problem::{Piece, Problem, Weights},
         search::Patience,
         starts,
+        whitening::Whitening,
         window::Window,
     },
 };
 use loose::{LOOSE, OFFSET, prestress};
+use std::sync::Arc;
 
 /// The record on its blocks.
 #[derive(Debug, Clone)]
@@ -40,6 +42,8 @@ pub(crate) struct Board<'a> {
     pub(crate) weights: Weights,
     /// By how much more each sample spreads because the input is noisy.
     pub(crate) spread: Vec<[f64; 2]>,
+    /// What makes the residuals under an imposed motion independent of each other; driven ones' windows have their own.
+    pub(crate) whitening: Option<Arc<Whitening>>,
     /// The parameters that are not free but may be a little off: their names and given values.
     pub(crate) loose: Vec<(String, f64)>,
     /// What the steps may be wrong by, of the spans [1].
@@ -156,6 +160,7 @@ impl<'a> Board<'a> {
             trains,
             weights: noises(data, weights),
             spread: Vec::new(),
+            whitening: None,
             loose,
             tolerance: steps::LONGEST,
         })
@@ -215,11 +220,15 @@ impl<'a> Board<'a> {
         if !self.imposed() {
             return Ok(Problem { windows: taken.map(|(_, w)| w.clone()).collect(), ..base });
         }
-        let mut counts = vec![false; self.data.time.len()];
+        let mut shares = vec![0.0; self.data.time.len()];
         for (_, window) in taken {
-            counts[window.first..window.end].fill(true);
+            shares[window.first..window.end].fill(1.0);
         }
-        Ok(Problem { counts, ..base })
+        let windows = base.windows.iter().map(|window| {
+            let whitening = self.whitening.clone();
+            Window { whitening, ..window.clone() }
+        });
+        Ok(Problem { windows: windows.collect(), shares, ..base })
     }
 
     /// Fits `rig` on the training blocks from `x` and the `pieces` of all blocks, or from its own values.
@@ -231,12 +240,11 @@ impl<'a> Board<'a> {
     ) -> Result<Fitted, FitError> {
         let problem = self.problem(rig, |k| self.trains[k])?;
         // A driven motion's windows are worth their logarithms in the search itself.
-        let softened = match from {
-            Some((_, [piece])) if self.imposed() => Some(self.softened(piece)),
-            _ => None,
+        let shares = match from {
+            Some((_, [piece])) if self.imposed() => self.softened(&problem.shares, piece),
+            _ => problem.shares,
         };
-        let spread = softened.as_deref().unwrap_or(problem.spread);
-        let problem = Problem { spread, ..problem };
+        let problem = Problem { shares, ..problem };
         if problem.free.is_empty() {
             return self.judged(rig, from.map(|(_, pieces)| pieces));
         }
@@ -273,21 +281,20 @@ impl<'a> Board<'a> {
         self.fit(&with_values(rig, &problem, &found.x), None, patience)
     }
 
-    /// The spread of an imposed motion's force with what a model still leaves of each window: one that is far off, for
-    /// whatever reason, must not decide over all others, and every window is worth its logarithm.
-    fn softened(&self, piece: &Piece) -> Vec<[f64; 2]> {
-        let mut spread = self.spread.clone();
-        spread.resize(self.data.time.len(), [0.0; 2]);
+    /// The shares of an imposed motion's residuals, less by what a model still leaves of each window: one that is far off,
+    /// for whatever reason, must not decide over all others, and every window is worth its logarithm.
+    fn softened(&self, shares: &[f64], piece: &Piece) -> Vec<f64> {
+        let mut shares = shares.to_vec();
         for window in &self.windows {
             let rows = &piece.residuals[window.first..window.end];
             let mean = rows.iter().map(|r| r * r).sum::<f64>() / rows.len().max(1) as f64;
             if mean.is_finite() && mean > SOFT {
-                for [own, _] in &mut spread[window.first..window.end] {
-                    *own = own.hypot((mean - 1.0).sqrt() * own.hypot(self.weights.force));
+                for share in &mut shares[window.first..window.end] {
+                    *share /= mean.sqrt();
                 }
             }
         }
-        spread
+        shares
     }
 
     /// A fitted model once more, as the board now weighs it, nothing moved but the starts.
@@ -306,8 +313,7 @@ impl<'a> Board<'a> {
     /// Counts the noise of the input anew, on its way through this model.
     pub(crate) fn refloor(&mut self, fitted: &Fitted, seed: u64) -> Result<(), FitError> {
         if self.imposed() {
-            let more = crate::floor::spread(self, fitted, seed)?;
-            self.spread = crate::floor::timed(self.data, more);
+            (self.spread, self.whitening) = crate::floor::imposed(self, fitted, seed)?;
             return Ok(());
         }
         let all = crate::floor::whitened(self, fitted)?;

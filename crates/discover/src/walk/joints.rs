@@ -30,9 +30,6 @@ const NEARER: f64 = 0.02;
 const SEEN: f64 = 0.1;
 const CLEARLY: f64 = 3.0;
 
-/// Where the motor keeps more than this share of the friction beside its load's, the search finds the rest [1].
-const LITTLE: f64 = 0.95;
-
 /// Near the floor it is fitted if it takes so much of the logarithm of what the windows leave: on twelve records that lack
 /// nothing it took 0.006 at most, on three in which a gear gives way beside another effect 0.009 at least.
 const GIVES: f64 = 0.008;
@@ -172,8 +169,8 @@ impl Walk<'_> {
 fn shared(mut rig: Rig, kind: Kind) -> Rig {
     let load = rig.value(&format!("{}.rubs", kind.about().name)).unwrap_or(0.0);
     let left = 1.0 - load / binding::model::<f64>(&rig, &|_| None).contact.level();
-    // A motor without friction has none to hand over, and a little of it the search does.
-    if !(left > 0.0 && left < LITTLE) {
+    // A motor that rubs less than its load has none to hand over.
+    if !(left > 0.0 && left < 1.0) {
         return rig;
     }
     let together = rig.clone();
@@ -256,8 +253,10 @@ mod tests {
         near(&rig, "k[1]", 750.0);
         let level = binding::model::<f64>(&rig, &|_| None).contact.level();
         assert!((level + 0.5 - 2.0).abs() < 1e-12, "{level} N");
-        // What is not free, and what is all of it, stays.
+        // A little is handed over, too.
         let coulomb = "name = \"coulomb\"\nf_c = 1.5";
+        near(&of(coulomb, "\"f_c\"", 0.03), "f_c", 1.47);
+        // What is not free, and what is all of it, stays.
         near(&of(coulomb, "\"sigma_2\"", 0.3), "f_c", 1.5);
         near(&of(coulomb, "\"f_c\"", 1.6), "f_c", 1.5);
         near(&of("name = \"none\"", "\"sigma_2\"", 0.3), "sigma_2", 0.5);

@@ -10,7 +10,7 @@ const SHARP: f64 = 8.0;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// So many samples of the same displacement are a rest.
-const REST: usize = 10;
+pub(super) const REST: usize = 10;
 
 /// Whether the displacement `u` has a corner at each sample: a rest begins or ends there, or its second difference stands
 /// out from those two and three samples away. No smooth curve is led across it.
@@ -72,7 +72,7 @@ impl Course {
 
 /// The velocity [m/s] at sample `i`: of the quartic through five samples, or of the parabola through three where they
 /// are too few, not evenly spaced, or a corner is among them; next to a corner, of the line on this side of it.
-fn velocity(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> f64 {
+pub(super) fn velocity(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> f64 {
     let (mut before, mut after) = (i.saturating_sub(1), (i + 1).min(u.len() - 1));
     if corners[after] && !corners[before] && i > before {
         after = i;
@@ -112,7 +112,7 @@ fn between((u, corners): (&[f64], &[bool]), i: usize, share: f64) -> f64 {
 }
 
 /// The pieces of constant velocity on the way from sample `i − 1` to `i`: where each ends [m], and its velocity [m/s].
-fn way(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> Vec<(f64, f64)> {
+pub(super) fn way(time: &[f64], (u, corners): (&[f64], &[bool]), i: usize) -> Vec<(f64, f64)> {
     let dt = time[i] - time[i - 1];
     if let Some(turn) = turned(time, (u, corners), i) {
         return turn.to_vec();

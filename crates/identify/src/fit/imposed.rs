@@ -19,60 +19,105 @@ pub(super) fn forces<D: Real>(
     seen: f64,
     see: &mut dyn FnMut(usize, D),
 ) {
-    let velocity = |i: usize| course.velocity[i];
-    let viscous = |i: usize| model.sigma_2 * velocity(i) + model.offset;
-    let mut z = model.contact.holding(begun(&model.contact, -viscous(0) + seen, velocity(0)));
-    let mut direction = 0.0;
-    let mut aged = model.effects_from(0.0, crate::effects::Past::unknown());
-    let (mut base, mut before, mut other) = (aged.clone(), z.clone(), aged.clone());
+    let mut sliding = Sliding::begun(model, seen, course.velocity[0]);
     for i in 0..u.len() {
+        let way = if i > 0 { course.way(i) } else { &[] };
+        let velocity = course.velocity[i];
+        see(i, sliding.step(&Step { time: near(time, i), u: near(u, i), velocity, way }));
+    }
+}
+
+/// The value at sample `i` and that before it.
+pub(super) fn near(values: &[f64], i: usize) -> [f64; 2] {
+    [values[i.saturating_sub(1)], values[i]]
+}
+
+/// The way to a sample from that before it; to the first from itself.
+pub(super) struct Step<'a> {
+    /// The times of both [s].
+    pub(super) time: [f64; 2],
+    /// Their displacements [m].
+    pub(super) u: [f64; 2],
+    /// The velocity at the sample [m/s].
+    pub(super) velocity: f64,
+    /// The pieces of constant velocity: where each ends [m], and its velocity [m/s].
+    pub(super) way: &'a [(f64, f64)],
+}
+
+/// What slides, and what it remembers from sample to sample.
+#[derive(Debug, Clone)]
+pub(super) struct Sliding<'a, D> {
+    model: &'a Model<D>,
+    /// The contact's states.
+    pub(super) z: Vec<D>,
+    /// Those of the effects.
+    aged: Vec<D>,
+    /// The direction of the last motion.
+    direction: f64,
+    /// The states at the beginning of a step, and room for others.
+    base: Vec<D>,
+    before: Vec<D>,
+    other: Vec<D>,
+}
+
+impl<'a, D: Real> Sliding<'a, D> {
+    /// With the force [N] that is `seen` at the first sample, at the velocity `v` [m/s].
+    pub(super) fn begun(model: &'a Model<D>, seen: f64, v: f64) -> Self {
+        let viscous = model.sigma_2 * v + model.offset;
+        let z = model.contact.holding(begun(&model.contact, -viscous + seen, v));
+        let aged = model.effects_from(0.0, crate::effects::Past::unknown());
+        let (base, before, other) = (aged.clone(), z.clone(), aged.clone());
+        Self { model, z, aged, direction: 0.0, base, before, other }
+    }
+
+    /// The friction force [N] at the next sample.
+    pub(super) fn step(&mut self, step: &Step<'_>) -> D {
+        let Self { model, z, aged, direction, base, before, other } = self;
+        let ([t_0, t], [u_0, u], v) = (step.time, step.u, step.velocity);
         let mut act = Acts::none();
-        let dt = if i > 0 { time[i] - time[i - 1] } else { 0.0 };
-        let step = if i > 0 { u[i] - u[i - 1] } else { 0.0 };
-        base.copy_from_slice(&aged);
-        before.copy_from_slice(&z);
-        let motion = (u[i], step / dt.max(f64::MIN_POSITIVE));
-        let now = at(model, (time[i], dt), motion, &before);
+        let dt = t - t_0;
+        base.copy_from_slice(aged);
+        before.copy_from_slice(z);
+        let motion = (u, (u - u_0) / dt.max(f64::MIN_POSITIVE));
+        let now = at(model, (t, dt), motion, before);
         if !model.effects.is_empty() {
-            act = model.acts(&now, &base, &mut aged);
+            act = model.acts(&now, base, aged);
         }
         // The contact as it is at a displacement: the level at which it slips may differ from place to place.
         let levels = act.level.is_some();
         let raised = |q: f64| {
             let at = At { q: D::from(q), ..now };
-            model.contact.raised(None, model.acts(&at, &base, &mut base.clone()).level)
+            model.contact.raised(None, model.acts(&at, base, &mut base.clone()).level)
         };
-        if i > 0 {
-            let mut last = u[i - 1];
-            for &(next, speed) in course.way(i) {
-                let grown = levels.then(|| raised(0.5 * (last + next)));
-                let contact = grown.as_ref().unwrap_or(&model.contact);
-                slide(contact, &mut z, next - last, (speed, act.rise));
-                last = next;
-            }
-            if velocity(i) != 0.0 {
-                direction = velocity(i).signum();
-            }
+        let mut last = u_0;
+        for &(next, speed) in step.way {
+            let grown = levels.then(|| raised(0.5 * (last + next)));
+            let contact = grown.as_ref().unwrap_or(&model.contact);
+            slide(contact, z, next - last, (speed, act.rise));
+            last = next;
+        }
+        if !step.way.is_empty() && v != 0.0 {
+            *direction = v.signum();
         }
         if !model.effects.is_empty() {
             // What depends on the velocity depends on that of the sample, what slides on that of the step.
-            let now = At { v: D::from(velocity(i)), dt: 0.0, ..now };
-            let here = model.acts(&now, &aged, &mut other);
+            let now = At { v: D::from(v), dt: 0.0, ..now };
+            let here = model.acts(&now, aged, other);
             act = Acts { force: here.force, more: here.more, rise: here.rise, ..act };
             act.risen(|| model.contact.level(), model.contact.bristles());
         }
-        let grown = levels.then(|| raised(u[i]));
+        let grown = levels.then(|| raised(u));
         let contact = grown.as_ref().unwrap_or(&model.contact);
-        let own = force(contact, &z, (velocity(i), act.rise), direction);
+        let own = force(contact, z, (v, act.rise), *direction);
         let sign = own.re().partial_cmp(&0.0).map_or(0.0, |order| f64::from(order as i8));
         let mut all = act.grown(own, sign);
         if let Some(dry) = act.dry {
-            all += dry * direction;
+            all += dry * *direction;
         }
         if let Some(force) = act.force {
             all += force;
         }
-        see(i, all + viscous(i));
+        all + model.sigma_2 * v + model.offset
     }
 }
 
@@ -180,7 +225,7 @@ fn force<D: Real>(contact: &Contact<D>, z: &[D], (v, rise): (f64, Option<D>), di
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::{Contact, Course, Model, forces};
     use crate::{Rig, fit::binding};
 
@@ -196,7 +241,8 @@ mod tests {
         forces(model, (time, u, &Course::of(time, u)), seen, see);
     }
 
-    fn model(friction: &str) -> Model<f64> {
+    /// That of a slide with this friction.
+    pub(in crate::fit) fn model(friction: &str) -> Model<f64> {
         binding::model(&Rig::parse(&format!("{RIG}{friction}\n")).unwrap(), &|_| None)
     }
 

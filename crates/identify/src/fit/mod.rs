@@ -23,6 +23,7 @@ pub mod newton;
 mod piece;
 pub mod problem;
 pub mod search;
+pub mod shaken;
 pub mod starts;
 mod way;
 mod weights;
@@ -295,7 +296,7 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     };
     let closed_loop = rig.controller.is_some() && !data.reference.is_empty();
     let windows = blocks::whole(data);
-    let (free, counts) = (Vec::new(), Vec::new());
+    let (free, shares) = (Vec::new(), Vec::new());
     let memory = binding::model::<f64>(rig, &|_| None).contact.memory();
     let imposed = data.force.is_some();
     let course = if imposed { Course::of(&data.time, &data.input) } else { Course::default() };
@@ -307,7 +308,7 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
         windows,
         closed_loop,
         memory,
-        counts,
+        shares,
         priors: Vec::new(),
         weights,
         spread: &[],

@@ -154,11 +154,11 @@ fn judged(
     let (train, judge) = blocks::split(windows);
     let only = |some: &[Window]| {
         if base.closed_loop || data.force.is_some() {
-            let mut counts = vec![false; data.time.len()];
+            let mut shares = vec![0.0; data.time.len()];
             for window in some {
-                counts[window.first..window.end].fill(true);
+                shares[window.first..window.end].fill(1.0);
             }
-            Problem { counts, ..base.clone() }
+            Problem { shares, ..base.clone() }
         } else {
             Problem { windows: some.to_vec(), ..base.clone() }
         }

@@ -41,8 +41,8 @@ pub struct Problem<'a> {
     pub closed_loop: bool,
     /// The distance over which the nominal contact forgets where it was [m].
     pub memory: f64,
-    /// The samples that count; all if empty.
-    pub counts: Vec<bool>,
+    /// By what the residuals of every sample are multiplied [1]: by 0 where it does not count; all by 1 if empty.
+    pub shares: Vec<f64>,
     /// Free parameters that are held near a value [its unit], and how near, in the fit's variable.
     pub priors: Vec<(String, f64, f64)>,
     /// What a residual of each channel is divided by [its unit]: displacement, velocity, input, force, loads.
@@ -171,10 +171,10 @@ impl Problem<'_> {
                 &mut |i, f| {
                     motion.q.push(f);
                     let i = window.first + i;
-                    let off = (f - force.values[i]) / self.first_weight(i);
-                    residuals.push(self.share(i) * off);
+                    residuals.push((f - force.values[i]) / self.first_weight(i));
                 },
             );
+            self.finished(window, &mut residuals);
             return Piece { start, motion, residuals };
         }
         let state = self.state(&model, window, start);
@@ -184,21 +184,31 @@ impl Problem<'_> {
         for i in 0..window.len() {
             self.sample(window.first + i, &motion, i, &mut residuals);
         }
-        if let Some(whitening) = &window.whitening {
-            whitening.apply(&mut residuals);
-        }
+        self.finished(window, &mut residuals);
         for (i, spread) in window.spread.iter().enumerate().take(self.starts()) {
             residuals.push((start[i] - window.start[i]) / spread);
         }
         Piece { start, motion, residuals }
     }
 
+    /// Makes a window's residuals independent of each other, and multiplies them by their shares.
+    fn finished(&self, window: &Window, residuals: &mut [f64]) {
+        if let Some(whitening) = &window.whitening {
+            whitening.apply(residuals);
+        }
+        let shares = self.shares.get(window.first..window.end).unwrap_or_default();
+        for (rows, share) in residuals.chunks_mut(self.channels()).zip(shares) {
+            for residual in rows {
+                *residual *= share;
+            }
+        }
+    }
+
     /// The residuals of sample `i`, of the `motion` at place `at`; one without a motion is far off.
     fn sample(&self, i: usize, motion: &Motion, at: usize, out: &mut Vec<f64>) {
-        let share = self.share(i);
         let mut push = |values: &[f64], seen: f64, weight: f64| {
             let residual = values.get(at).map_or(NO_MOTION, |value| (value - seen) / weight);
-            out.push(share * if residual.is_finite() { residual } else { NO_MOTION });
+            out.push(if residual.is_finite() { residual } else { NO_MOTION });
         };
         if let Some(seen) = &self.data.displacement {
             push(&motion.q, seen.values[i], self.first_weight(i));
@@ -209,11 +219,6 @@ impl Problem<'_> {
         if self.closed_loop {
             push(&motion.u, self.data.input[i], self.weights.input);
         }
-    }
-
-    /// 1 for a sample that counts, 0 for another.
-    fn share(&self, i: usize) -> f64 {
-        if self.counts.get(i).copied().unwrap_or(true) { 1.0 } else { 0.0 }
     }
 
     /// The standard deviation of a sample of the velocity: noise, and what it changes by in a share of a sample.
@@ -286,6 +291,10 @@ impl Problem<'_> {
         if let Some(whitening) = &window.whitening {
             whitening.apply_all(&mut jacobian);
         }
+        let (shares, channels) = (self.shares.get(window.first..window.end), self.channels());
+        for (i, share) in shares.unwrap_or_default().iter().enumerate() {
+            jacobian.rows_mut(i * channels, channels).scale_mut(*share);
+        }
         let n = jacobian.nrows();
         for (i, spread) in window.spread.iter().enumerate().take(starts) {
             jacobian[(n - starts + i, free + i - first)] = spread.recip();
@@ -331,11 +340,7 @@ impl Problem<'_> {
                 &model,
                 (&self.data.time[range.clone()], &self.data.input[range], &self.course(window)),
                 force.values[window.first],
-                &mut |i, f| {
-                    if self.share(window.first + i) > 0.0 {
-                        write(i, &f, self.first_weight(window.first + i));
-                    }
-                },
+                &mut |i, f| write(i, &f, self.first_weight(window.first + i)),
             );
             return;
         }
@@ -363,9 +368,6 @@ impl Problem<'_> {
         let drive = (&self.drive(window), &self.data.time[range]);
         replay(&model, drive, tape, &state, &mut |i, q, v, u| {
             let mut row = i * channels;
-            if self.share(window.first + i) == 0.0 {
-                return;
-            }
             write(row, &q, self.first_weight(window.first + i));
             if let Some(seen) = &self.data.velocity {
                 row += 1;
