@@ -43,6 +43,9 @@ pub(crate) struct Visible {
 /// A direction of the free parameters that is this much flatter than the steepest is left alone.
 const FLAT: f64 = 1e-10;
 
+/// What changes the sum of squares by so little, in units of the floor, is not seen at all.
+const UNSEEN: f64 = 1e-20;
+
 /// The best change along `places` on a Gram matrix whose last column is the residual.
 fn best(gram: &DMatrix<f64>, places: &[usize]) -> DVector<f64> {
     let n = places.len();
@@ -50,7 +53,11 @@ fn best(gram: &DMatrix<f64>, places: &[usize]) -> DVector<f64> {
         return DVector::zeros(0);
     }
     let residual = gram.nrows() - 1;
-    let size: Vec<f64> = places.iter().map(|i| gram[(*i, *i)].max(1e-300).sqrt()).collect();
+    let size = |i: &usize| {
+        let square = gram[(*i, *i)];
+        if square > UNSEEN { square.sqrt() } else { f64::INFINITY }
+    };
+    let size: Vec<f64> = places.iter().map(size).collect();
     let scaled = DMatrix::from_fn(n, n, |a, b| gram[(places[a], places[b])] / (size[a] * size[b]));
     let right = DVector::from_fn(n, |a, _| -gram[(places[a], residual)] / size[a]);
     let eigen = scaled.symmetric_eigen();
@@ -224,7 +231,7 @@ fn projected(gram: &DMatrix<f64>, column: usize, places: &[usize]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::scores;
+    use super::{best, scores};
     use crate::gram::{Gram, Probe};
     use identify::effects::Kind;
     use nalgebra::DMatrix;
@@ -252,5 +259,14 @@ mod tests {
         assert!((all[0].gain - 90.0).abs() < 1e-9 && !all[0].plausible, "{all:?}");
         assert!((all[1].gain - 80.0).abs() < 1e-9 && all[1].plausible, "{all:?}");
         assert!((all[1].values[0] - 8_f64.sqrt()).abs() < 1e-9, "{all:?}");
+    }
+
+    #[test]
+    fn what_is_not_seen_does_not_move() {
+        // The second column is what rounding leaves of one that is zero.
+        let gram =
+            DMatrix::from_row_slice(3, 3, &[10., 0., 30., 0., 1e-290, 1e-160, 30., 1e-160, 400.]);
+        let by = best(&gram, &[0, 1]);
+        assert!((by[0] + 3.0).abs() < 1e-12 && by[1] == 0.0, "{by}");
     }
 }

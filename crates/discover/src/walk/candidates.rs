@@ -14,7 +14,7 @@ use crate::{
 };
 use identify::{
     Rig,
-    effects::{Context, Kind},
+    effects::{Context, Kind, Shape},
     fit::{FitError, search::Patience},
 };
 use rayon::prelude::*;
@@ -88,6 +88,9 @@ impl Walk<'_> {
             };
             let there = self.judged(&point.blocks);
             let mut short = self.short_list(&gram, &there, context, options);
+            if elsewhere {
+                short.extend(self.turned(&gram, &short));
+            }
             if round > 0 && now.level() < NOTHING {
                 short.truncate(FEW);
             }
@@ -194,6 +197,21 @@ impl Walk<'_> {
         all.into_par_iter().filter_map(one).collect()
     }
 
+    /// Effects of which a straight line far from the truth asks for less than nothing, with as much of the other sign:
+    /// where the nominal parameters are wrong as well it says little of that.
+    fn turned(&self, gram: &Gram, list: &[Scored]) -> Vec<Scored> {
+        let scores = screen::scores(gram, false, &self.board.trains);
+        let listed = |kind: Kind| list.iter().any(|s| s.kind == kind);
+        let smooth = |s: &Scored| s.kind.tried().is_empty() && s.gain > SURELY;
+        let all = scores.into_iter().filter(|s| !s.plausible && smooth(s) && !listed(s.kind));
+        let turned = |s: Scored| {
+            let keys = s.kind.about().keys.iter().zip(&s.values);
+            let values = keys.map(|(key, v)| if key.shape == Shape::Amount { -v } else { *v });
+            Scored::unscored(s.kind, values.collect())
+        };
+        all.map(turned).collect()
+    }
+
     /// The effects worth a full refit: the best scores, and those that have none.
     fn short_list(
         &self,
@@ -242,7 +260,10 @@ impl Walk<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::walk::made::{BIAS, context, data, rig, walk, with};
+    use crate::{
+        gram::Gram,
+        walk::made::{BIAS, context, data, rig, walk, with},
+    };
     use identify::effects::Kind;
 
     #[test]
@@ -263,6 +284,21 @@ mod tests {
             walk.board.judged(&with(&walk.given, Kind::CurrentBias, &[BIAS]), None).unwrap();
         walk.origin = walk.beside_given().unwrap();
         assert_eq!(walk.points().len(), 1);
+    }
+
+    #[test]
+    fn what_a_straight_line_asks_the_other_sign_of_is_tried_far_from_the_truth() {
+        // With three times the drag that there is less than none more is asked for.
+        let data = data();
+        let mut nominal = rig(2.0);
+        nominal.friction.sigma_2 = 1.5;
+        let walk = walk(&nominal, &data, &[]);
+        let gram = Gram::of(&walk.board, &walk.best, (&context(&walk), false)).unwrap();
+        let turned = walk.turned(&gram, &[]);
+        let drag = turned.iter().find(|s| s.kind == Kind::QuadraticDrag).unwrap();
+        assert!(drag.values[0] > 0.1, "{:?}", drag.values);
+        let again = walk.turned(&gram, &turned);
+        assert!(again.is_empty(), "what is listed is not turned: {again:?}");
     }
 
     #[test]
