@@ -1,6 +1,9 @@
 //! The force that a model lacks, over time, with its floor.
 
-use crate::{floor::timed, rest::rested};
+use crate::{
+    floor::{timed, turns_at_once},
+    rest::rested,
+};
 use identify::{
     Rig,
     effects::Channel,
@@ -60,8 +63,8 @@ pub fn residual(rig: &Rig, data: &Data, seed: u64) -> Option<Residual> {
         None => signals.run(&model, data, strength),
     };
     let force = run(&seen)?;
-    // Beside the noise of the force itself one that turns is worth what its time is.
-    let turns = timed(data, &model.contact, Vec::new());
+    // Beside the noise of the force itself one that turns at once, or at a corner, is worth what its time is.
+    let turns = timed(data, turns_at_once(&model), Vec::new());
     let own = |i: usize| match &data.force {
         Some(seen) => seen.noise.hypot(turns[i][0]),
         None => 0.0,

@@ -40,7 +40,7 @@ pub(crate) struct Board<'a> {
     pub(crate) trains: Vec<bool>,
     /// The noise of the sensors.
     pub(crate) weights: Weights,
-    /// By how much more each sample spreads because the input is noisy.
+    /// By how much more each sample spreads because an imposed motion is noisy than to first order, which is whitened.
     pub(crate) spread: Vec<[f64; 2]>,
     /// What makes the residuals under an imposed motion independent of each other; driven ones' windows have their own.
     pub(crate) whitening: Option<Arc<Whitening>>,

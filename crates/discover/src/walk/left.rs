@@ -115,7 +115,7 @@ impl Walk<'_> {
     /// Whether what a model leaves of a driven motion hangs together for longer than any noise: it is white where the
     /// model was followed with the noise of its input, and over 3.8 samples at most on 90 records that were explained,
     /// but for a pair at 18.
-    /// The floor of an imposed motion's force is no such thing.
+    /// An imposed motion's is white to first order only: what went astray by more lasts.
     pub(super) fn hangs_together(&self, fitted: &Fitted) -> bool {
         let loads = if self.board.data.loads.is_some() { 2 } else { 0 };
         let of = channels(fitted) - loads;

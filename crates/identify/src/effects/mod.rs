@@ -91,7 +91,7 @@ macro_rules! effects {
             }
 
             /// Whether it is friction that can hold.
-            pub(crate) fn dry(self) -> bool {
+            pub fn dry(self) -> bool {
                 match self {
                     $(Self::$law => $module::$law::DRY,)*
                     $(Self::$hidden => $other::$hidden::DRY,)*

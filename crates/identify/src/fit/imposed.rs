@@ -49,7 +49,7 @@ pub(super) struct Step<'a> {
 pub(super) struct Sliding<'a, D> {
     model: &'a Model<D>,
     /// The contact's states.
-    pub(super) z: Vec<D>,
+    z: Vec<D>,
     /// Those of the effects.
     aged: Vec<D>,
     /// The direction of the last motion.
@@ -68,6 +68,17 @@ impl<'a, D: Real> Sliding<'a, D> {
         let aged = model.effects_from(0.0, crate::effects::Past::unknown());
         let (base, before, other) = (aged.clone(), z.clone(), aged.clone());
         Self { model, z, aged, direction: 0.0, base, before, other }
+    }
+
+    /// The states of the contact and then those of the effects.
+    pub(super) fn states(&self) -> impl Iterator<Item = &D> {
+        self.z.iter().chain(&self.aged)
+    }
+
+    /// One of them.
+    pub(super) fn state(&mut self, k: usize) -> &mut D {
+        let own = self.z.len();
+        if k < own { &mut self.z[k] } else { &mut self.aged[k - own] }
     }
 
     /// The friction force [N] at the next sample.

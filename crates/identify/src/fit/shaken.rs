@@ -24,15 +24,19 @@ const KEPT: usize = 2 * REACH;
 /// How small deviations go on from sample to sample under an imposed motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shaken {
-    /// How many states the contact has.
+    /// How many states the contact and the effects have.
     states: usize,
     /// The standard deviation of the displacement at each sample [m].
     noise: Vec<f64>,
     /// Whether a sample has the error of that before it.
     same: Vec<bool>,
+    /// What each error of the first displacements, by one standard deviation, makes of the states at the first sample.
+    errors: Vec<DVector<f64>>,
+    /// And that of the first force, by which the contact is begun.
+    begun: DVector<f64>,
     /// From each sample to the next: [A; C] and [g; d] as of [`Whitening::of`], C and d in newtons. The states are those of
-    /// the contact and, in standard deviations, the errors of the displacement two samples ahead, one ahead, here and one
-    /// behind; the new one is two samples ahead.
+    /// the contact and the effects and, in standard deviations, the errors of the displacement two samples ahead, one
+    /// ahead, here and one behind; the new one is two samples ahead.
     passings: Vec<(DMatrix<f64>, DVector<f64>)>,
 }
 
@@ -42,57 +46,117 @@ impl Problem<'_> {
     pub fn shaken(&self, x: &[f64], noise: f64) -> Option<Shaken> {
         let force = self.data.force.as_ref().filter(|_| noise > 0.0)?;
         let record = (self.data.time.as_slice(), self.data.input.as_slice());
-        Some(Shaken::of(&self.model(x), record, force.values[0], noise))
+        Some(Shaken::of(&self.model(x), record, (force.values[0], self.weights.force), noise))
+    }
+}
+
+/// An imposed motion and what slides along it.
+struct Motion<'a> {
+    model: &'a Model<f64>,
+    time: &'a [f64],
+    /// Where it has corners: no error makes one, or takes one away.
+    corners: &'a [bool],
+    /// The displacement [m].
+    u: Vec<f64>,
+}
+
+impl<'a> Motion<'a> {
+    /// What slides, at the first sample, with this force [N].
+    fn begun(&self, force: f64) -> Sliding<'a, f64> {
+        Sliding::begun(self.model, force, velocity(self.time, (&self.u, self.corners), 0))
+    }
+
+    /// The states and the force once it has come to sample `i`.
+    fn sample(&self, sliding: &mut Sliding<'_, f64>, i: usize) -> Vec<f64> {
+        let (time, u) = (self.time, (self.u.as_slice(), self.corners));
+        let way = if i > 0 { way(time, u, i) } else { Vec::new() };
+        let (time, u, velocity) = (near(time, i), near(u.0, i), velocity(time, u, i));
+        let force = sliding.step(&Step { time, u, velocity, way: &way });
+        sliding.states().copied().chain([force]).collect()
+    }
+
+    /// By how much what is seen differs with an error of this size at these samples [m].
+    fn shaken(
+        &mut self,
+        of: &Range<usize>,
+        size: f64,
+        see: &dyn Fn(&Self) -> Vec<f64>,
+    ) -> DVector<f64> {
+        let own = self.u[of.clone()].to_vec();
+        let [up, down] = [size, -size].map(|by| {
+            for (u, own) in self.u[of.clone()].iter_mut().zip(&own) {
+                *u = own + by;
+            }
+            see(self)
+        });
+        self.u[of.clone()].copy_from_slice(&own);
+        half(&up, &down)
     }
 }
 
 impl Shaken {
-    fn of(model: &Model<f64>, (time, u): (&[f64], &[f64]), seen: f64, noise: f64) -> Self {
+    /// `seen` is the first force and its standard deviation [N].
+    fn of(model: &Model<f64>, (time, u): (&[f64], &[f64]), seen: (f64, f64), noise: f64) -> Self {
         let (noise, same) = errors(u, noise);
-        // No error makes a corner, or takes one away.
         let corners = corners(u);
-        let sample = |sliding: &mut Sliding<'_, f64>, u: &[f64], i: usize| {
-            let way = if i > 0 { way(time, (u, &corners), i) } else { Vec::new() };
-            let velocity = velocity(time, (u, &corners), i);
-            let step = Step { time: near(time, i), u: near(u, i), velocity, way: &way };
-            let force = sliding.step(&step);
-            sliding.z.iter().copied().chain([force]).collect::<Vec<f64>>()
-        };
-        let mut sliding = Sliding::begun(model, seen, velocity(time, (u, &corners), 0));
-        sample(&mut sliding, u, 0);
-        let mut moved = u.to_vec();
-        let states = sliding.z.len();
-        let mut all = Self { states, noise, same, passings: Vec::new() };
+        let mut motion = Motion { model, time, corners: &corners, u: u.to_vec() };
+        let mut sliding = motion.begun(seen.0);
+        motion.sample(&mut sliding, 0);
+        let states = sliding.states().count();
+        let begun = DVector::zeros(states + KEPT);
+        let mut all = Self { states, noise, same, errors: Vec::new(), begun, passings: Vec::new() };
+        all.start(&mut motion, seen);
+        // By how much the states have differed with an error, at most.
+        let mut sizes = vec![0.0; states];
         for i in 1..u.len() {
-            let mut passing = all.passing(i);
-            let see = |at: &mut Vec<f64>, z: Option<(usize, f64)>| {
-                let mut probe = sliding.clone();
-                if let Some((k, by)) = z {
-                    probe.z[k] += by;
-                }
-                sample(&mut probe, at, i)
-            };
-            for k in 0..states {
-                let size = all.noise[i] * model.contact.stiff();
-                let [up, down] = [size, -size].map(|by| see(&mut moved, Some((k, by))));
-                all.write(&mut passing, Some(k), (&up, &down), 2.0 * size);
-            }
-            for (of, column) in all.asked(i) {
-                let size = all.noise[of.start];
-                let [up, down] = [size, -size].map(|by| {
-                    for u in &mut moved[of.clone()] {
-                        *u += by;
-                    }
-                    let seen = see(&mut moved, None);
-                    moved[of.clone()].copy_from_slice(&u[of.clone()]);
-                    seen
-                });
-                all.write(&mut passing, column, (&up, &down), 2.0);
-            }
-            sample(&mut sliding, u, i);
+            let passing = all.passed((&mut motion, &sliding), i, &mut sizes);
             all.passings.push(passing);
+            motion.sample(&mut sliding, i);
         }
         all
+    }
+
+    /// What is not known at the first sample.
+    fn start(&mut self, motion: &mut Motion<'_>, (seen, noise): (f64, f64)) {
+        let states = |force: f64, motion: &Motion<'_>| -> Vec<f64> {
+            motion.begun(force).states().copied().collect()
+        };
+        let by = half(&states(seen + noise, motion), &states(seen - noise, motion));
+        self.begun.rows_mut(0, self.states).copy_from(&by);
+        for (of, _) in self.asked(0) {
+            let by = motion.shaken(&of, self.noise[of.start], &|motion| states(seen, motion));
+            let mut error = DVector::zeros(self.states + KEPT);
+            error.rows_mut(0, self.states).copy_from(&by);
+            of.for_each(|j| error[self.states + REACH - j] = 1.0);
+            self.errors.push(error);
+        }
+    }
+
+    /// What leads to sample `i`; a state is moved by as much as an error has done up to there, for what slips is not smooth.
+    fn passed(
+        &self,
+        (motion, sliding): (&mut Motion<'_>, &Sliding<'_, f64>),
+        i: usize,
+        sizes: &mut [f64],
+    ) -> (DMatrix<f64>, DVector<f64>) {
+        let mut passing = self.passing(i);
+        for (of, column) in self.asked(i) {
+            let see = |motion: &Motion<'_>| motion.sample(&mut sliding.clone(), i);
+            let by = motion.shaken(&of, self.noise[of.start], &see);
+            for (size, by) in sizes.iter_mut().zip(by.iter()) {
+                *size = f64::max(*size, by.abs());
+            }
+            self.write(&mut passing, column, &by);
+        }
+        for (k, size) in sizes.iter().enumerate().filter(|(_, size)| **size > 0.0) {
+            let [up, down] = [*size, -size].map(|by| {
+                let mut other = sliding.clone();
+                *other.state(k) += by;
+                motion.sample(&mut other, i)
+            });
+            self.write(&mut passing, Some(k), &(half(&up, &down) / *size));
+        }
+        passing
     }
 
     /// What leads to sample `i` as far as it is the same for every contact: the errors move on by one.
@@ -130,20 +194,18 @@ impl Shaken {
         asked
     }
 
-    /// Writes what the states and the force change by between two motions, divided by so much.
+    /// Writes what the states and the force change by.
     fn write(
         &self,
         (by, new): &mut (DMatrix<f64>, DVector<f64>),
         column: Option<usize>,
-        (up, down): (&[f64], &[f64]),
-        apart: f64,
+        slopes: &DVector<f64>,
     ) {
-        for (k, (up, down)) in up.iter().zip(down).enumerate() {
+        for (k, slope) in slopes.iter().enumerate() {
             let row = if k < self.states { k } else { self.states + KEPT };
-            let slope = (up - down) / apart;
             match column {
-                Some(column) => by[(row, column)] = slope,
-                None => new[row] = slope,
+                Some(column) => by[(row, column)] = *slope,
+                None => new[row] = *slope,
             }
         }
     }
@@ -162,7 +224,8 @@ impl Shaken {
             new[seen] /= weight(i + 1);
             (by, new)
         });
-        Whitening::of(seen, weighed)
+        let start = self.errors.iter().chain([&self.begun]).map(|b| b * b.transpose());
+        Whitening::of(start.sum(), weighed)
     }
 
     /// An error of the displacement [m], of which every part that is new is drawn by `normal`, and what it does to the
@@ -171,6 +234,12 @@ impl Shaken {
         let n = self.noise.len();
         let (mut error, mut force) = (vec![0.0; n], vec![0.0; n]);
         let mut state = DVector::zeros(self.states + KEPT);
+        for own in &self.errors {
+            state += own * normal();
+        }
+        for j in 0..=REACH {
+            error[j] = self.noise[j] * state[self.states + REACH - j];
+        }
         for (i, (by, new)) in self.passings.iter().enumerate() {
             let next = by * &state + new * normal();
             state.copy_from(&next.rows(0, self.states + KEPT));
@@ -181,6 +250,11 @@ impl Shaken {
         }
         (error, force)
     }
+}
+
+/// Half of what two motions differ by.
+fn half(up: &[f64], down: &[f64]) -> DVector<f64> {
+    DVector::from_iterator(up.len(), up.iter().zip(down).map(|(up, down)| 0.5 * (up - down)))
 }
 
 /// The standard deviation of every sample of the displacement `u` [m], each sample having so much `noise`, and which of
@@ -212,6 +286,12 @@ mod tests {
 
     const LUGRE: &str = "name = \"lugre\"\nf_c = 1.0\nf_s = 1.4\nv_s = 0.02\nsigma_0 = 3e3\nsigma_1 = 5.0\nsigma_2 = 2.0";
 
+    /// Springs that slip, and a contact that ages, beside another friction.
+    const SPRING: &str = "name = \"coulomb\"\nf_c = 1e-9\nsigma_2 = 0.1\n[[effect]]\nname = \"maxwell_slip\"\nk = 500.0\n\
+        delta = 6e-4";
+    const AGE: &str = "name = \"lugre\"\nf_c = 1.0\nf_s = 1.0\nv_s = 0.02\nsigma_0 = 3e3\nsigma_1 = 1.0\nsigma_2 = 0.1\n\
+        [[effect]]\nname = \"dwell_stiction\"\ndrop = 0.8\ntau = 0.3\nwear = 2.0";
+
     /// A sine of 2 mm that rests at 1.2 s for half a second, and 8 s of it.
     fn motion() -> (Vec<f64>, Vec<f64>) {
         let time: Vec<f64> = (0..1600).map(|i| 0.005 * f64::from(i)).collect();
@@ -236,13 +316,16 @@ mod tests {
             "name = \"dahl\"\nf_c = 1.5\nsigma = 3e3\ngamma = 1.0\nsigma_2 = 1.0",
             "name = \"maxwell-slip\"\nk = [9e2, 4e2]\ndelta = [2e-4, 9e-4]\nsigma_2 = 1.0",
             LUGRE,
+            SPRING,
+            AGE,
         ] {
-            let shaken = Shaken::of(&model(friction), (&time, &u), 0.0, 1e-11);
+            let shaken = Shaken::of(&model(friction), (&time, &u), (0.0, 0.0), 1e-11);
             let (error, first) = shaken.drawn(&mut || StandardNormal.sample(&mut random));
             let moved: Vec<f64> = u.iter().zip(&error).map(|(u, e)| u + e).collect();
             let (here, there) = (forced(friction, (&time, &u)), forced(friction, (&time, &moved)));
+            // A contact begins with the first force, whatever its velocity.
             let rms = |of: &dyn Fn(usize) -> f64| {
-                ((0..u.len()).map(|i| of(i).powi(2)).sum::<f64>() / u.len() as f64).sqrt()
+                ((1..u.len()).map(|i| of(i).powi(2)).sum::<f64>() / u.len() as f64).sqrt()
             };
             let (all, left) =
                 (rms(&|i| there[i] - here[i]), rms(&|i| there[i] - here[i] - first[i]));
@@ -265,7 +348,7 @@ mod tests {
             }
             seen[i] += error;
         }
-        let shaken = Shaken::of(&model(LUGRE), (&time, &seen), 0.0, noise);
+        let shaken = Shaken::of(&model(LUGRE), (&time, &seen), (0.0, 0.0), noise);
         let whitening = shaken.weighed(&|_| weight).unwrap();
         let pairs = forced(LUGRE, (&time, &seen)).into_iter().zip(forced(LUGRE, (&time, &u)));
         let mut left: Vec<f64> = pairs.map(|(a, b)| (a - b) / weight + normal()).collect();

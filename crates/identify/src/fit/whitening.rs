@@ -33,13 +33,13 @@ pub struct Whitening {
 
 impl Whitening {
     /// Of what goes on from sample to sample: [A; C] and [g; d] of each, with C and d in units of the sensors' noise and
-    /// g and d for one standard deviation of the input's. The states at the first sample are known. None if not all
-    /// is finite.
+    /// g and d for one standard deviation of the input's. The states at the first sample have this `covariance`. None if
+    /// not all is finite.
     pub fn of(
-        states: usize,
+        mut covariance: DMatrix<f64>,
         all: impl Iterator<Item = (DMatrix<f64>, DVector<f64>)>,
     ) -> Option<Self> {
-        let mut covariance = DMatrix::zeros(states, states);
+        let states = covariance.nrows();
         let mut passings = Vec::new();
         let mut channels = 0;
         for (by, noise) in all {
@@ -196,7 +196,7 @@ impl Problem<'_> {
                 all.push((by, noise));
             },
         );
-        Whitening::of(n, all.into_iter())
+        Whitening::of(DMatrix::zeros(n, n), all.into_iter())
     }
 }
 
@@ -211,7 +211,8 @@ mod tests {
         let entry = |k: usize, i: usize, j: usize| (1.0 + (3 * k + i + 2 * j) as f64).sin();
         let by = |k: usize| DMatrix::from_fn(4, 2, |i, j| entry(k, i, j));
         let noise = |k: usize| DVector::from_fn(4, |i, _| 2.0 * entry(k, i, 5));
-        let whitening = Whitening::of(2, (0..5).map(|k| (by(k), noise(k)))).unwrap();
+        let whitening =
+            Whitening::of(DMatrix::zeros(2, 2), (0..5).map(|k| (by(k), noise(k)))).unwrap();
         // What one deviation of each interval's noise does to all samples, followed by hand.
         let mut b = DMatrix::zeros(12, 5);
         for of in 0..5 {

@@ -248,14 +248,6 @@ impl<D: Real> Contact<D> {
         matches!(self, Self::LuGre { .. })
     }
 
-    /// By how much of its own unit a state of it grows with the displacement where it holds [1/m].
-    pub(crate) fn stiff(&self) -> f64 {
-        match self {
-            Self::Dahl { sigma, .. } => sigma.re(),
-            _ => 1.0,
-        }
-    }
-
     /// The shortest deflection [m] at which it slips.
     pub(crate) fn grain(&self) -> f64 {
         match self {
