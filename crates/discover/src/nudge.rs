@@ -66,7 +66,7 @@ pub fn residual(rig: &Rig, data: &Data, seed: u64) -> Option<Residual> {
     // Beside the noise of the force itself one that turns at once, or at a corner, is worth what its time is.
     let turns = timed(data, turns_at_once(&model), Vec::new());
     let own = |i: usize| match &data.force {
-        Some(seen) => seen.noise.hypot(turns[i][0]),
+        Some(seen) => seen.noise.hypot(turns[i]),
         None => 0.0,
     };
     let mut squares: Vec<f64> = (0..force.len()).map(|i| own(i).powi(2)).collect();

@@ -40,8 +40,9 @@ pub(crate) struct Board<'a> {
     pub(crate) trains: Vec<bool>,
     /// The noise of the sensors.
     pub(crate) weights: Weights,
-    /// By how much more each sample spreads because an imposed motion is noisy than to first order, which is whitened.
-    pub(crate) spread: Vec<[f64; 2]>,
+    /// By how much more the force at each sample spreads under an imposed motion, because that is noisy, than to first
+    /// order, which is whitened [N].
+    pub(crate) spread: Vec<f64>,
     /// What makes the residuals under an imposed motion independent of each other; driven ones' windows have their own.
     pub(crate) whitening: Option<Arc<Whitening>>,
     /// The parameters that are not free but may be a little off: their names and given values.

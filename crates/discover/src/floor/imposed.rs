@@ -17,7 +17,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// How many times the input is perturbed by its own noise.
+/// How many times the displacement is perturbed by its own noise.
 const TIMES: u64 = 16;
 
 /// How many samples to either side tell of one sample's spread.
@@ -26,8 +26,8 @@ const AROUND: usize = 1;
 /// So many samples that move tell their noise.
 const LITTLE: usize = 64;
 
-/// By how much every sample spreads beside what makes the rest independent: force [N] and none.
-type Floor = (Vec<[f64; 2]>, Option<Arc<Whitening>>);
+/// By how much the force at every sample spreads [N], and what makes the rest independent.
+type Floor = (Vec<f64>, Option<Arc<Whitening>>);
 
 /// What the noise of an imposed displacement makes of a model's force: by how much every sample spreads beside what
 /// follows from it to first order [N], and what makes the rest independent. Turns are noisier than the rest, so that
@@ -45,22 +45,17 @@ pub(crate) fn imposed(board: &Board<'_>, fitted: &Fitted, seed: u64) -> Result<F
         .into_par_iter()
         .map(|time| one(board, (&rig, &here[0]), (&shaken, seed.wrapping_add(time))))
         .collect();
-    let n = board.data.time.len();
-    let mut sum = vec![0.0; n + 1];
+    let mut squares = vec![0.0; board.data.time.len()];
     for draw in draws? {
-        for (sum, d) in sum[1..].iter_mut().zip(&draw) {
-            *sum += d * d;
+        for (square, d) in squares.iter_mut().zip(&draw) {
+            *square += d * d / TIMES as f64;
         }
     }
-    for i in 0..n {
-        sum[i + 1] += sum[i];
-    }
     let local = |i: usize| {
-        let (low, high) = (i.saturating_sub(AROUND), (i + AROUND + 1).min(n));
-        let count = (high - low) as f64 * TIMES as f64;
-        [((sum[high] - sum[low]).max(0.0) / count).sqrt(), 0.0]
+        let near = &squares[i.saturating_sub(AROUND)..(i + AROUND + 1).min(squares.len())];
+        (near.iter().sum::<f64>() / near.len() as f64).sqrt()
     };
-    let spread = timed(board.data, turns, (0..n).map(local).collect());
+    let spread = timed(board.data, turns, (0..squares.len()).map(local).collect());
     let weighed = Problem { spread: &spread, ..problem };
     let whitening = shaken.whitening(&weighed).map(Arc::new);
     Ok((spread, whitening))
@@ -104,7 +99,7 @@ pub(crate) fn turns_at_once(model: &Model<f64>) -> bool {
 
 /// The spread with that of a force that changes from sample to sample: at a corner, and where it `turns_at_once`, it is
 /// worth what its time is.
-pub(crate) fn timed(data: &Data, turns_at_once: bool, spread: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+pub(crate) fn timed(data: &Data, turns_at_once: bool, spread: Vec<f64>) -> Vec<f64> {
     let Some(force) = &data.force else { return spread };
     let f = &force.values;
     let corners = identify::fit::corners(&data.input);
@@ -124,8 +119,7 @@ pub(crate) fn timed(data: &Data, turns_at_once: bool, spread: Vec<[f64; 2]>) -> 
     };
     let of =
         |i: usize| known(i) * 0.5 * (f[(i + 1).min(f.len() - 1)] - f[i.saturating_sub(1)]).abs();
-    let own = |i: usize| spread.get(i).copied().unwrap_or([0.0; 2]);
-    (0..f.len()).map(|i| [own(i)[0].hypot(of(i)), own(i)[1]]).collect()
+    (0..f.len()).map(|i| spread.get(i).map_or_else(|| of(i), |own| own.hypot(of(i)))).collect()
 }
 
 #[cfg(test)]
@@ -168,7 +162,7 @@ mod tests {
         let (all, _) = imposed(&board, &fitted, 1).unwrap();
         // Away from the turns, whose time noise does move.
         let resting = (0..8000).filter(|i| (20..80).contains(&(i % 200)));
-        let worst = resting.map(|i| all[i][0]).fold(0.0, f64::max);
+        let worst = resting.map(|i| all[i]).fold(0.0, f64::max);
         assert!(worst < 1e-3, "{worst} N of 1.5 N");
     }
 
@@ -250,11 +244,8 @@ mod tests {
         let seen = Seen::new("force", force, 0.0);
         let driven = Data::driven(time, input, identify::Hold::Linear, seen.clone());
         let data = Data { displacement: None, force: Some(seen), ..driven };
-        let spread = |at_once: bool| -> Vec<f64> {
-            timed(&data, at_once, Vec::new()).iter().map(|own| own[0]).collect()
-        };
+        let [dry, other] = [true, false].map(|at_once| timed(&data, at_once, Vec::new()));
         // It turns at π/8 s, 78.5 samples; by 3 N over two sampling times, a tenth of one of them known.
-        let [dry, other] = [true, false].map(spread);
         assert!((dry[78] - 0.15).abs() < 1e-12 && dry[40] == 0.0, "{} N", dry[78]);
         assert!(other.iter().all(|own| *own == 0.0));
     }

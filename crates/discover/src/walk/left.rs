@@ -75,7 +75,7 @@ impl Walk<'_> {
         let (board, mut adrift) = (&self.board, vec![false; self.board.trains.len()]);
         for (w, window) in board.windows.iter().enumerate().filter(|_| board.imposed()) {
             let spread = board.spread.get(window.first..window.end).unwrap_or_default();
-            let many = spread.iter().filter(|[own, _]| *own > LOST * board.weights.force).count();
+            let many = spread.iter().filter(|own| **own > LOST * board.weights.force).count();
             adrift[board.block(w)] |= 2 * many > window.len();
         }
         adrift
@@ -319,15 +319,15 @@ mod tests {
         assert!(walk.struck());
         // A force that spreads as far there as the noise of the displacement moves it.
         let force = walk.board.weights.force;
-        walk.board.spread.resize(data.time.len(), [0.0; 2]);
+        walk.board.spread.resize(data.time.len(), 0.0);
         for window in 4..7 {
             let own = &walk.board.windows[window];
-            walk.board.spread[own.first..own.end].fill([30.0 * force, 0.0]);
+            walk.board.spread[own.first..own.end].fill(30.0 * force);
         }
         assert!(!walk.struck());
         // Without two of them the third alone is one that went astray.
         let own = &walk.board.windows[6];
-        walk.board.spread[own.first..own.end].fill([0.1 * force, 0.0]);
+        walk.board.spread[own.first..own.end].fill(0.1 * force);
         assert!(!walk.struck());
     }
 

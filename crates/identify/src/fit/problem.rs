@@ -47,9 +47,9 @@ pub struct Problem<'a> {
     pub priors: Vec<(String, f64, f64)>,
     /// What a residual of each channel is divided by [its unit]: displacement, velocity, input, force, loads.
     pub weights: Weights,
-    /// By how much more than by its noise a sample may be off: its displacement (or force) and its velocity, each in
-    /// the channel's unit; none if empty.
-    pub spread: &'a [[f64; 2]],
+    /// By how much more than by its noise a sample of the displacement, or of the force, may be off [its unit]; none if
+    /// empty.
+    pub spread: &'a [f64],
     /// The steps' tolerance, of the spans of displacement and velocity [1].
     pub tolerance: f64,
     /// The course of the whole record if its motion is imposed; else empty.
@@ -226,15 +226,14 @@ impl Problem<'_> {
     /// A sample in a break-away is worth what its time is: without this a few of them would decide the fit.
     fn velocity_weight(&self, values: &[f64], i: usize) -> f64 {
         let (before, after) = (i.saturating_sub(1), (i + 1).min(values.len() - 1));
-        let own = self.weights.velocity.hypot(TIMING * 0.5 * (values[after] - values[before]));
-        self.spread.get(i).map_or(own, |more| own.hypot(more[1]))
+        self.weights.velocity.hypot(TIMING * 0.5 * (values[after] - values[before]))
     }
 
     /// The standard deviation of a sample of the displacement, or of the force.
     fn first_weight(&self, i: usize) -> f64 {
         let imposed = self.data.force.is_some();
         let own = if imposed { self.weights.force } else { self.weights.displacement };
-        self.spread.get(i).map_or(own, |more| own.hypot(more[0]))
+        self.spread.get(i).map_or(own, |more| own.hypot(*more))
     }
 
     /// What the residuals of sample `i` are divided by: displacement, and velocity if it is seen.

@@ -237,8 +237,8 @@ impl Shaken {
         for own in &self.errors {
             state += own * normal();
         }
-        for j in 0..=REACH {
-            error[j] = self.noise[j] * state[self.states + REACH - j];
+        for (j, error) in error.iter_mut().enumerate().take(REACH + 1) {
+            *error = self.noise[j] * state[self.states + REACH - j];
         }
         for (i, (by, new)) in self.passings.iter().enumerate() {
             let next = by * &state + new * normal();
