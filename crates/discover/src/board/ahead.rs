@@ -24,6 +24,8 @@ pub(crate) struct Ahead {
     pub(crate) far: f64,
     /// The kind of what it has more.
     pub(crate) kind: Kind,
+    /// Its place among what was tried.
+    pub(crate) place: usize,
     /// The model, moved.
     pub(crate) rig: Rig,
 }
@@ -47,15 +49,15 @@ impl Board<'_> {
         let prior = gram::prior(&own);
         let left = gram::residuals(self, &own, &point.x, &pieces);
         let (_, alone) = step(&slopes, &left, &prior);
-        let one = |(kind, rig): &(Kind, Rig)| {
+        let one = |(place, (kind, rig)): (usize, &(Kind, Rig))| {
             let held = Fitted::holding(rig);
             let problem = self.problem(&held, |k| taken.contains(&k)).ok()?;
             let pieces = models::settled(&problem, &[], Some(&pieces), 1);
             let left = gram::residuals(self, &problem, &[], &pieces);
             let (step, far) = step(&slopes, &left, &prior);
-            Some(Ahead { far, kind: *kind, rig: self.moved(rig, &step).ok()? })
+            Some(Ahead { far, kind: *kind, place, rig: self.moved(rig, &step).ok()? })
         };
-        let mut all: Vec<Ahead> = rigs.par_iter().filter_map(one).collect();
+        let mut all: Vec<Ahead> = rigs.par_iter().enumerate().filter_map(one).collect();
         all.sort_by(|a, b| a.far.total_cmp(&b.far));
         Ok((alone, all))
     }

@@ -1,6 +1,6 @@
 //! What does not begin smoothly: a load behind a joint.
 
-use super::{ABOVE, DOWN, GROSS, Walk, candidates::AFRESH, named::NOTHING};
+use super::{ABOVE, DOWN, Walk, candidates::AFRESH, named::NOTHING};
 use crate::{
     board::{Ahead, Fitted},
     decide::Judged,
@@ -18,17 +18,20 @@ use identify::{
 /// found first, or beside what was.
 const ROUNDS: usize = 2;
 
-/// So many beginnings of each kind are fitted; after so many simulations so many go on.
+/// So many beginnings of each kind are fitted beside each model; after so many simulations so many go on, and twice as many
+/// where there are two models.
 const FIRST: usize = 6;
 const HEATS: [(usize, usize); 2] = [(3, 3), (8, 2)];
-
-/// Of the logarithm of what a window leaves, what does not begin smoothly takes away so much at least.
-const NEARER: f64 = 0.02;
+const LOST: [(usize, usize); 2] = [(3, 6), (8, 2)];
 
 /// After its race it goes on if it has taken away so much of the logarithm of what the model leaves above the floor: of 13 that
-/// were found it was a quarter at least. Below so many floors a race says nothing: of one, at 1.8, it saw a hundredth.
+/// were found it was a quarter at least. Below so many floors a race says nothing: of one, at 1.8, it saw a hundredth. On
+/// short windows, most of which show nothing of a play, it says which is nearer and no more.
 const SEEN: f64 = 0.1;
 const CLEARLY: f64 = 3.0;
+
+/// What leaves so many times what the nearest does is followed no further.
+const BEHIND: f64 = 3.0;
 
 /// Near the floor it is fitted if it takes so much of the logarithm of what the windows leave: on twelve records that lack
 /// nothing it took 0.006 at most, on three in which a gear gives way beside another effect 0.009 at least.
@@ -56,27 +59,47 @@ impl Walk<'_> {
         self.joins && round < ROUNDS && level > ABOVE && !self.explained(level)
     }
 
-    /// What does not begin smoothly, and so has no score, refitted from each amount and shape at which it is tried beside
-    /// a model that goes along with it.
+    /// What does not begin smoothly, and so has no score, refitted from the amounts of each shape that go along best with
+    /// a model. Far from the truth the model itself and what it was before its refit are begun with, on short windows: a
+    /// load that meets its tooth too early takes another way from there on, and on long windows each amount is a minimum
+    /// of its own.
     pub(super) fn begun(&self, context: &Context) -> Vec<Candidate> {
-        let mut all: Vec<Ahead> = Vec::new();
         let now = self.judged(&self.best.blocks);
-        let far = now.level() > GROSS;
-        for point in self.points() {
+        let (points, level) = (self.points(), now.level());
+        let lost = points.len() > 1 && level > CLEARLY;
+        let (board, heats) = if lost { (&self.short, &LOST) } else { (&self.board, &HEATS) };
+        let there = |fitted: &Fitted| {
+            if lost { board.judged(&fitted.rig, None) } else { Ok(fitted.clone()) }
+        };
+        let mut near: Vec<(usize, Ahead)> = Vec::new();
+        for (place, point) in points.iter().enumerate() {
             let rigs = self.tried(point, context);
-            if let Ok((alone, there)) = self.board.ahead(point, &rigs) {
-                all.extend(there.into_iter().filter(|a| !far || a.far < alone - NEARER));
+            if let Ok((_, all)) = there(point).and_then(|point| board.ahead(&point, &rigs)) {
+                let (place, all) = if lost { (place, dips(&rigs, &all)) } else { (0, all) };
+                near.extend(all.into_iter().map(|a| (place, a)));
             }
         }
-        all.sort_by(|a, b| a.far.total_cmp(&b.far));
+        near.sort_by(|(_, a), (_, b)| a.far.total_cmp(&b.far));
         let raced = LAWS.iter().flat_map(|kind| {
-            let own = all.iter().filter(|a| a.kind == *kind).take(FIRST);
-            let own: Vec<(Kind, Rig)> = own.map(|a| (*kind, a.rig.clone())).collect();
-            self.board.raced(&own, &HEATS, &AFRESH)
+            let own = |place: usize| {
+                let own = near.iter().filter(move |(p, a)| *p == place && a.kind == *kind);
+                own.take(FIRST).map(|(_, a)| (*kind, a.rig.clone()))
+            };
+            let own: Vec<(Kind, Rig)> = (0..points.len()).flat_map(own).collect();
+            board.raced(&own, heats, &AFRESH)
         });
-        let (alone, level) = (self.board.far(&self.best), now.level());
-        let least = if level < CLEARLY { f64::INFINITY } else { alone - SEEN * level.ln() };
-        self.longer(raced.filter(|(far, ..)| *far < least).collect(), (&now, context))
+        let alone = there(&self.best).map_or(f64::INFINITY, |best| board.far(&best));
+        let least = match level {
+            level if level < CLEARLY => f64::INFINITY,
+            _ if lost => alone,
+            level => alone - SEEN * level.ln(),
+        };
+        let raced = raced.filter(|(far, ..)| *far < least).collect();
+        let mut all = self.longer(raced, (&now, context));
+        if let Some((_, least)) = self.nearest(&all) {
+            all.retain(|c| self.judged(&c.fitted.blocks).level() < BEHIND * least);
+        }
+        all
     }
 
     /// A gear that gives way, where the model leaves little more than noise: the stiffness and load that go along best
@@ -164,6 +187,25 @@ impl Walk<'_> {
     }
 }
 
+/// Of `all` that was tried, in the amounts of each shape one after another, what is nearer than the amounts beside it, in
+/// the order of `all`. The least amount is as good as none.
+fn dips(rigs: &[(Kind, Rig)], all: &[Ahead]) -> Vec<Ahead> {
+    let mut far = vec![f64::INFINITY; rigs.len()];
+    for a in all {
+        far[a.place] = a.far;
+    }
+    let mut dip = vec![false; rigs.len()];
+    let mut from = 0;
+    while let Some((kind, _)) = rigs.get(from) {
+        let end = from + kind.tried().len().max(1);
+        for i in from + 1..end {
+            dip[i] = far[i] < far[i - 1] && (i + 1 == end || far[i] < far[i + 1]);
+        }
+        from = end;
+    }
+    all.iter().filter(|a| dip[a.place]).cloned().collect()
+}
+
 /// A model whose load rubs, with so much less of the motor's own friction: both together rub as it was found, and a search
 /// that begins with more than that hands none of it over.
 fn shared(mut rig: Rig, kind: Kind) -> Rig {
@@ -187,8 +229,8 @@ fn shared(mut rig: Rig, kind: Kind) -> Rig {
 
 #[cfg(test)]
 mod tests {
-    use super::shared;
-    use crate::walk::made;
+    use super::{dips, shared};
+    use crate::{board::Ahead, walk::made};
     use identify::{
         Rig,
         effects::Kind,
@@ -205,6 +247,25 @@ mod tests {
         assert!(!walk.may_begin(1.5, 1), "noise that is not white after all was explained");
         walk.joins = false;
         assert!(!walk.may_begin(8.0, 0));
+    }
+
+    #[test]
+    fn of_each_shape_the_amounts_nearer_than_those_beside_them_are_begun_with() {
+        let kind = Kind::Backlash;
+        let many = kind.tried().len();
+        let rigs = vec![(kind, made::rig(2.0)); 2 * many];
+        // The first shape is nearest with its least amount and has dips at the fourth and the last; the second has one
+        // at its fifth, and perhaps one beside its sixth, which could not be simulated.
+        let mut far: Vec<f64> = (0..2 * many).map(|i| 3.0 + 0.01 * (i % many) as f64).collect();
+        for (place, left) in [(3, 2.0), (many - 1, 2.5), (many + 4, 1.0)] {
+            far[place] = left;
+        }
+        let ahead = |place: usize| Ahead { far: far[place], kind, place, rig: made::rig(2.0) };
+        let mut all: Vec<Ahead> = (0..2 * many).filter(|i| *i != many + 5).map(ahead).collect();
+        all.sort_by(|a, b| a.far.total_cmp(&b.far));
+        let places: Vec<usize> = dips(&rigs, &all).iter().map(|a| a.place).collect();
+        assert_eq!(places, [many + 4, 3, many - 1, many + 6]);
+        assert!(dips(&[], &[]).is_empty());
     }
 
     #[test]

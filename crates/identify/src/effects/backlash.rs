@@ -40,7 +40,9 @@ impl Law for Backlash {
     };
     const STATES: usize = 3;
     const JOINS: bool = true;
-    const TRIED: &[f64] = &[3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2];
+    // A play half as wide or twice as wide as the true one is a minimum of its own.
+    const TRIED: &[f64] =
+        &[3e-5, 6e-5, 1.2e-4, 2.5e-4, 5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.6e-2, 3e-2, 6e-2, 0.12];
 
     fn joint<D: Real>(p: &[D], at: &At<D>) -> Option<Joint<D>> {
         // Teeth that do not ring.
