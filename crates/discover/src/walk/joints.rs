@@ -254,10 +254,10 @@ mod tests {
         let kind = Kind::Backlash;
         let many = kind.tried().len();
         let rigs = vec![(kind, made::rig(2.0)); 2 * many];
-        // The first shape is nearest with its least amount and has dips at the fourth and the last; the second has one
+        // The first shape has dips at its fourth, to which it falls over two amounts, and at its last; the second has one
         // at its fifth, and perhaps one beside its sixth, which could not be simulated.
         let mut far: Vec<f64> = (0..2 * many).map(|i| 3.0 + 0.01 * (i % many) as f64).collect();
-        for (place, left) in [(3, 2.0), (many - 1, 2.5), (many + 4, 1.0)] {
+        for (place, left) in [(2, 2.4), (3, 2.0), (many - 1, 2.5), (many + 4, 1.0)] {
             far[place] = left;
         }
         let ahead = |place: usize| Ahead { far: far[place], kind, place, rig: made::rig(2.0) };
