@@ -4,7 +4,7 @@ use crate::Gap;
 use identify::{
     Rig,
     doctor::noise,
-    fit::{Data, FitError, Simulated, simulate},
+    fit::{Data, FitError, Simulated, Trace, simulate},
     rig,
 };
 use rand::SeedableRng;
@@ -79,12 +79,12 @@ fn spread(model: &Rig, data: &Data, plain: &Simulated) -> Vec<f64> {
             let drawn: f64 = StandardNormal.sample(&mut random);
             *u += noise * drawn;
         }
-        simulate(model, &other, None).ok()
+        let finite = |trace: &Trace| trace.after.iter().all(|value| value.is_finite());
+        plain.once_more(model, &other).ok().filter(|all| all.iter().all(finite))
     };
-    let others: Vec<Option<Simulated>> = times.into_par_iter().map(perturbed).collect();
+    let others: Vec<Option<Vec<Trace>>> = times.into_par_iter().map(perturbed).collect();
     for other in others.into_iter().flatten() {
-        for ((sum, count), (a, b)) in squares.iter_mut().zip(plain.traces.iter().zip(&other.traces))
-        {
+        for ((sum, count), (a, b)) in squares.iter_mut().zip(plain.traces.iter().zip(&other)) {
             *sum += a.after.iter().zip(&b.after).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
             *count += a.after.len() as f64;
         }

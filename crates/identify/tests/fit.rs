@@ -261,6 +261,21 @@ fn a_window_that_decides_late_between_resting_and_slipping_is_begun_where_its_fi
 }
 
 #[test]
+fn a_run_once_more_begins_where_it_began() {
+    let truth =
+        rig("name = \"dahl\"\nf_c = 2.0\nsigma = 2e3\ngamma = 1.0\nsigma_2 = 1.0", "\"f_c\"");
+    let data = record(&truth, 6.0, 9);
+    let run = simulate(&truth, &data, None).expect("a run");
+    assert_eq!(run.once_more(&truth, &data).expect("a run"), run.traces, "the same input");
+    let mut pushed = data.clone();
+    pushed.input.iter_mut().for_each(|u| *u += 0.1);
+    let other = run.once_more(&truth, &pushed).expect("a run");
+    let [own, other] = [&run.traces[0].after, &other[0].after];
+    assert_eq!(own[0], other[0], "where the record began, not where the push would have it");
+    assert!((own[900] - other[900]).abs() > 3.0 * NOISE[0], "{} m", own[900] - other[900]);
+}
+
+#[test]
 fn a_window_without_a_motion_says_nothing_of_the_others() {
     let truth = rig("name = \"coulomb\"\nf_c = 2.0", "\"f_c\"");
     let mut data = record(&truth, 6.0, 9);

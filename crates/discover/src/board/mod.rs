@@ -91,7 +91,7 @@ fn settled(data: &Data, about: usize, room: usize) -> usize {
     let stride = (room / 6).max(1);
     let end = (about + room + 1).min(data.time.len() - 8);
     let candidates = (about.saturating_sub(room)..end).step_by(stride);
-    let far = |i: usize| Window::new(data, i, (i + 16).min(data.time.len())).run_up.abs();
+    let far = |i: usize| Window::come(data, i, (i + 16).min(data.time.len())).abs();
     let all: Vec<(f64, usize)> = candidates.map(|i| (far(i), i)).collect();
     let furthest = |smooth: bool| {
         let fits = |i: usize| !smooth || Window::smooth(data, i) < SMOOTH;

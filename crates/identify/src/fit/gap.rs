@@ -2,8 +2,9 @@
 
 use super::{
     Data, FitError, Way, blocks, models,
-    problem::{Problem, Weights},
+    problem::{Piece, Problem, Weights},
     search::{End, Found},
+    window::START,
 };
 use crate::{Rig, march::Motion};
 
@@ -66,6 +67,30 @@ pub struct Simulated {
     pub way: Way,
     /// See `way`.
     pub windows: usize,
+    /// Where each window began.
+    starts: Vec<[f64; START]>,
+    /// What the steps may be wrong by [1].
+    tolerance: f64,
+}
+
+impl Simulated {
+    /// Every channel over time of the same model on another record: in one run, from where this one began and with steps
+    /// as short.
+    ///
+    /// # Errors
+    /// As [`simulate`] has them, but for the motion: where there is none the channels are not numbers.
+    pub fn once_more(&self, rig: &Rig, data: &Data) -> Result<Vec<Trace>, FitError> {
+        let problem = Problem { tolerance: self.tolerance, ..super::unfree(rig, data)? };
+        let begun = problem.windows.iter().zip(&self.starts);
+        let pieces: Vec<Piece> = begun.map(|(w, start)| problem.piece(&[], w, *start)).collect();
+        let found = alone(pieces);
+        Ok(traces(&problem, [&found, &found]))
+    }
+}
+
+/// What nothing was fitted to.
+fn alone(pieces: Vec<Piece>) -> Found {
+    Found { x: Vec::new(), misfit: f64::NAN, pieces, end: End::Converged, simulations: [1, 0] }
 }
 
 /// Whether the model of `rig` has a motion on the inputs of `data`: in one of the windows at least, as [`simulate`] takes
@@ -78,27 +103,27 @@ pub fn moves(rig: &Rig, data: &Data, window: Option<f64>) -> Result<bool, FitErr
     if data.force.is_none() && !problem.closed_loop && window.is_some() {
         problem.windows = blocks::blocks(data, window);
     }
-    Ok(simulable(&problem).is_some())
+    let any = |problem: Problem<'_>| {
+        problem.windows.iter().any(|window| follows(&problem.piece(&[], window, window.start)))
+    };
+    Ok(ever_rougher(&problem).any(any))
 }
 
 /// Where a model has no motion with steps as short as a fit takes them they may be so many times as rough, and so many
-/// times again, up to this share of the spans.
+/// times again, up to this share of the spans: a small load on a hard joint may ask for more steps than a window may take.
 const ROUGHER: f64 = 10.0;
 const ROUGHEST: f64 = 1e-2;
 
-/// What the steps may be wrong by for one of the windows at least to have a motion: a small load on a hard joint may ask
-/// for more steps than a window may take. None where no window has one. A window that is lost says nothing of the others.
-fn simulable(problem: &Problem<'_>) -> Option<f64> {
-    let moves = |tolerance: &f64| {
-        let problem = Problem { tolerance: *tolerance, ..problem.clone() };
-        problem.windows.iter().any(|window| {
-            let one = Problem { windows: vec![window.clone()], ..problem.clone() };
-            one.pieces(&[], None).iter().any(|piece| !piece.motion.q.is_empty())
-        })
-    };
+/// The problem with ever rougher steps.
+fn ever_rougher<'p>(problem: &Problem<'p>) -> impl Iterator<Item = Problem<'p>> {
     std::iter::successors(Some(problem.tolerance), |tolerance| Some(ROUGHER * tolerance))
         .take_while(|tolerance| *tolerance <= ROUGHEST)
-        .find(moves)
+        .map(|tolerance| Problem { tolerance, ..problem.clone() })
+}
+
+/// Whether a window has a motion. One that is lost says nothing of the others.
+fn follows(piece: &Piece) -> bool {
+    !piece.motion.q.is_empty()
 }
 
 /// Runs the model of `rig` on the inputs of `data`: in closed loop where the controller is declared, in windows
@@ -114,14 +139,22 @@ pub fn simulate(rig: &Rig, data: &Data, window: Option<f64>) -> Result<Simulated
         }
         None => Way::OneRun,
     };
-    let Some(tolerance) = simulable(&problem) else { return Err(FitError::NoMotion) };
-    let problem = Problem { tolerance, ..problem };
-    let pieces = models::settled(&problem, &[], None, 2);
-    let found =
-        Found { x: Vec::new(), misfit: f64::NAN, pieces, end: End::Converged, simulations: [1, 0] };
-    let gap = gap(&problem, &found, &found);
-    let windows = problem.windows.len();
-    Ok(Simulated { gap, traces: traces(&problem, [&found, &found]), way, windows })
+    let moving = |problem: Problem<'_>| {
+        let pieces = problem.pieces(&[], None);
+        pieces.iter().any(follows).then(|| {
+            let pieces = models::followed(&problem, &[], pieces, 2);
+            let found = alone(pieces);
+            Simulated {
+                gap: gap(&problem, &found, &found),
+                traces: traces(&problem, [&found, &found]),
+                way,
+                windows: problem.windows.len(),
+                starts: found.pieces.iter().map(|piece| piece.start).collect(),
+                tolerance: problem.tolerance,
+            }
+        })
+    };
+    ever_rougher(&problem).find_map(moving).ok_or(FitError::NoMotion)
 }
 
 /// Every channel of the windows; a window that could not be simulated shows what is not a number.

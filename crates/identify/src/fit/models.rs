@@ -191,7 +191,17 @@ pub fn settled(
 ) -> Vec<Piece> {
     let staying = |p: &Piece| Lead::staying(p.start, x.len());
     let leads: Option<Vec<Lead>> = pieces.map(|pieces| pieces.iter().map(staying).collect());
-    let mut pieces = problem.pieces(x, leads.as_ref().map(|leads| (x, leads.as_slice())));
+    let pieces = problem.pieces(x, leads.as_ref().map(|leads| (x, leads.as_slice())));
+    followed(problem, x, pieces, times)
+}
+
+/// The windows at `x`, simulated already, their starts fitted so many times.
+pub(super) fn followed(
+    problem: &Problem<'_>,
+    x: &[f64],
+    mut pieces: Vec<Piece>,
+    times: usize,
+) -> Vec<Piece> {
     for _ in 0..times {
         let leads: Vec<_> = problem.all_slopes(x, &pieces).into_iter().map(|s| s.lead).collect();
         for (piece, next) in pieces.iter_mut().zip(problem.pieces(x, Some((x, &leads)))) {

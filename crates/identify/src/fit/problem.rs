@@ -61,6 +61,10 @@ pub struct Problem<'a> {
 /// How well the time of a sample is known, in sampling times.
 const TIMING: f64 = 0.1;
 
+/// A motion of so many steps a sample is gone over once more with longer ones for its derivatives: to find these, no fewer
+/// than one a sample, takes longer than to carry derivatives along a few steps more.
+const MANY: usize = 2;
+
 /// The residual of a sample without a motion, in standard deviations: far worse than any motion's.
 const NO_MOTION: f64 = 1e4;
 
@@ -353,7 +357,7 @@ impl Problem<'_> {
         let channels = self.channels();
         let longer;
         let mut tape: &Tape = &piece.motion.tape;
-        if self.slopes > self.tolerance {
+        if self.slopes > self.tolerance && tape.steps() > MANY * window.len() {
             let model = self.model(x);
             let state = self.state(&model, window, piece.start);
             let spans = self.spans(window, self.slopes);

@@ -1,8 +1,11 @@
 //! Where a simulated piece of the record begins, and in what state.
 
-use super::{data::Data, whitening::Whitening};
+use super::{
+    data::{Data, Seen},
+    whitening::Whitening,
+};
 use crate::effects::{LONG, Past};
-use std::sync::Arc;
+use std::{ops::Range, sync::Arc};
 
 /// A piece of the record that is simulated in one go.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,10 +68,15 @@ impl Window {
             whitening: None,
         };
         let Some(seen) = &data.displacement else { return none };
-        let look = &seen.values[first..(first + LOOK).min(end)];
-        let time = &data.time[first..(first + LOOK).min(end)];
-        let (value, spread) = straight((time, data.time[first]), look, seen.noise);
+        let (value, spread) = after(data, seen, first..end);
         none.seen(data, value, spread)
+    }
+
+    /// The [`Self::run_up`] of a window of these samples.
+    pub fn come(data: &Data, first: usize, end: usize) -> f64 {
+        let Some(seen) = &data.displacement else { return 0.0 };
+        let (value, spread) = after(data, seen, first..end);
+        begins((data, seen), first, value, spread).2
     }
 
     /// The same window, with where the displacement has turned before it, and with its start as the samples to both
@@ -94,23 +102,15 @@ impl Window {
 
     /// The same window with its start at a displacement and a velocity that are known with these standard deviations,
     /// if the velocity was not measured better.
-    fn seen(self, data: &Data, [q, slope]: [f64; 2], [q_spread, slope_spread]: [f64; 2]) -> Self {
-        let (mut v, mut v_spread) = (slope, slope_spread);
-        if let Some(velocity) = &data.velocity
-            && velocity.noise < v_spread
-        {
-            (v, v_spread) = (velocity.values[self.first], velocity.noise);
-        }
-        if v.abs() < 2.0 * v_spread {
-            v = 0.0;
-        }
+    fn seen(self, data: &Data, value: [f64; 2], spread: [f64; 2]) -> Self {
         let Some(seen) = &data.displacement else { return self };
-        let come = run_up(&seen.values[..=self.first], 4.0 * seen.noise);
+        let ([q, v], [q_spread, v_spread], run_up) =
+            begins((data, seen), self.first, value, spread);
         let faster = FASTER * data.speed().max(f64::MIN_POSITIVE);
         Self {
             start: [q, v, 0.0, 0.0, 0.0],
             spread: [LOOSE * q_spread, LOOSE * v_spread, UNKNOWN, 1.0, faster],
-            run_up: if v.abs() > MOVING * v_spread { come * same(come, v) } else { 0.0 },
+            run_up,
             ..self
         }
     }
@@ -143,6 +143,34 @@ impl Window {
     pub fn is_empty(&self) -> bool {
         self.end <= self.first
     }
+}
+
+/// Displacement and velocity as the first samples of a window show them, and their standard deviations.
+fn after(data: &Data, seen: &Seen, window: Range<usize>) -> ([f64; 2], [f64; 2]) {
+    let look = window.start..(window.start + LOOK).min(window.end);
+    straight((&data.time[look.clone()], data.time[window.start]), &seen.values[look], seen.noise)
+}
+
+/// Displacement and velocity at sample `first`, their standard deviations, and [`Window::run_up`]: where they are known
+/// so well from the displacement, if the velocity was not measured better.
+fn begins(
+    (data, seen): (&Data, &Seen),
+    first: usize,
+    [q, slope]: [f64; 2],
+    [q_spread, slope_spread]: [f64; 2],
+) -> ([f64; 2], [f64; 2], f64) {
+    let (mut v, mut v_spread) = (slope, slope_spread);
+    if let Some(velocity) = &data.velocity
+        && velocity.noise < v_spread
+    {
+        (v, v_spread) = (velocity.values[first], velocity.noise);
+    }
+    if v.abs() < 2.0 * v_spread {
+        v = 0.0;
+    }
+    let come = run_up(&seen.values[..=first], 4.0 * seen.noise);
+    let run_up = if v.abs() > MOVING * v_spread { come * same(come, v) } else { 0.0 };
+    ([q, v], [q_spread, v_spread], run_up)
 }
 
 /// So many samples to either side tell the state at a window's start, where there are so many before it.

@@ -72,13 +72,17 @@ fn sought(
     if let Some(way) = seek.way {
         return root(|v| at(v, way), seek, None).map(|v| (v, way));
     }
-    // The excess grows with v: where it is negative at rest although friction holds against it, the plant
-    // slides forth, and where it is positive, back.
-    let (forth, back) = (at(0.0, 1.0).0, at(0.0, -1.0).0);
-    if forth >= 0.0 && back <= 0.0 {
+    // The excess grows with v: where it is negative at rest although friction holds against it, the plant slides forth, and
+    // where it is positive, back. It is the likelier way that is asked first, for then the other is none.
+    let likely = if seek.guess < 0.0 { -1.0 } else { 1.0 };
+    let mut holds = |side: f64| side * at(0.0, side).0 >= 0.0;
+    let side = if !holds(likely) {
+        likely
+    } else if !holds(-likely) {
+        -likely
+    } else {
         return Some((0.0, 0.0));
-    }
-    let side = if forth < 0.0 { 1.0 } else { -1.0 };
+    };
     let guess = if seek.guess * side > 0.0 { seek.guess } else { 0.0 };
     root(|v| at(v, side), Seek { guess, ..seek }, Some(side)).map(|v| (v, side))
 }
