@@ -82,8 +82,8 @@ fn spread(model: &Rig, data: &Data, plain: &Simulated) -> Vec<f64> {
         let finite = |trace: &Trace| trace.after.iter().all(|value| value.is_finite());
         plain.once_more(model, &other).ok().filter(|all| all.iter().all(finite))
     };
-    let others: Vec<Option<Vec<Trace>>> = times.into_par_iter().map(perturbed).collect();
-    for other in others.into_iter().flatten() {
+    let others: Vec<Vec<Trace>> = times.into_par_iter().filter_map(perturbed).collect();
+    for other in others {
         for ((sum, count), (a, b)) in squares.iter_mut().zip(plain.traces.iter().zip(&other)) {
             *sum += a.after.iter().zip(&b.after).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
             *count += a.after.len() as f64;

@@ -137,15 +137,12 @@ impl Walk<'_> {
         }
         // What went as far with it but is not known so well stands far from where the model is as good: a Stribeck velocity
         // forty times too large, where the stiction is as good as gone.
-        let far = |p: &&Moved| !p.moved && p.given > 0.0 && strays(p.found.value, p.given);
-        let mut with = parameters.iter().filter(far).peekable();
-        if with.peek().is_none() {
-            return Ok(true);
+        let along = |p: &&Moved| !p.moved && p.given > 0.0 && strays(p.found.value, p.given);
+        let before = rig.clone();
+        for gone in parameters.iter().filter(along) {
+            binding::set(&mut rig, &gone.found.name, gone.given);
         }
-        for moved in with {
-            binding::set(&mut rig, &moved.found.name, moved.given);
-        }
-        worse(&rig)
+        Ok(rig == before || worse(&rig)?)
     }
 
     /// All free values of the last model with their standard errors, as if those that are `known` were, and the names

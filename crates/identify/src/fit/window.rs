@@ -151,8 +151,8 @@ fn after(data: &Data, seen: &Seen, window: Range<usize>) -> ([f64; 2], [f64; 2])
     straight((&data.time[look.clone()], data.time[window.start]), &seen.values[look], seen.noise)
 }
 
-/// Displacement and velocity at sample `first`, their standard deviations, and [`Window::run_up`]: where they are known
-/// so well from the displacement, if the velocity was not measured better.
+/// Displacement and velocity at sample `first` [m, m/s], their standard deviations, and [`Window::run_up`] [m], of what the
+/// displacement tells of both; the velocity as it was measured, if that is better.
 fn begins(
     (data, seen): (&Data, &Seen),
     first: usize,
