@@ -127,7 +127,7 @@ fn motion(rig: &Rig, with: Option<&Rig>) -> Vec<u64> {
     let level = 3.0 * rig.value("f_c").unwrap_or(0.05) / model.balance.gain;
     let values: Vec<f64> = time.iter().map(|t| level * (1.7 * t).sin() * (0.3 * t).cos()).collect();
     let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
-    let start = Start { q: 0.01, v: 0.0, z: vec![0.0; model.states()] };
+    let start = Start { q: 0.01, v: 0.0, z: vec![0.0; model.states()], shown: None };
     let tolerance = Tolerance { q: 1e-7, v: 1e-6, z: 1e-4, steps: 1_000_000 };
     let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
     motion.q.iter().chain(&motion.v).map(|v| v.to_bits()).collect()

@@ -67,7 +67,7 @@ fn moved(rig: &Rig, name: &str, to: f64, time: &[f64], rtol: f64) -> Motion {
     rig.set(name, to).expect("a value");
     let model = binding::model::<f64>(&rig, &|_| None);
     let u = drive(time);
-    let start = Start { q: 0.05, v: 0.2, z: vec![0.01; model.contact.states()] };
+    let start = Start { q: 0.05, v: 0.2, z: vec![0.01; model.contact.states()], shown: None };
     let tolerance = Tolerance { q: rtol, v: rtol, z: rtol, steps: 50_000_000 };
     let drive = Drive::Recorded { values: &u, first: 0, hold: Hold::Linear };
     march(&model, &drive, time, &start, &tolerance).expect("a value")
@@ -79,8 +79,12 @@ fn replayed(rig: &Rig, name: &str, time: &[f64], motion: &Motion) -> Vec<f64> {
     let model: Model<Dual<2>> =
         binding::model(rig, &|key| (key == name).then(|| Dual::variable(value, 0)));
     let u = drive(time);
-    let start =
-        Start { q: 0.05.into(), v: 0.2.into(), z: vec![0.01.into(); model.contact.states()] };
+    let start = Start {
+        q: 0.05.into(),
+        v: 0.2.into(),
+        z: vec![0.01.into(); model.contact.states()],
+        shown: None,
+    };
     let drive = Drive::Recorded { values: &u, first: 0, hold: Hold::Linear };
     let mut by = Vec::new();
     replay(&model, (&drive, time), &motion.tape, &start, &mut |_, q, _, _| {

@@ -46,7 +46,7 @@ fn sampled(rig: &Rig, hold: Hold, (amplitude, seed): (f64, u64), rate: f64) -> D
     let input: Vec<f64> = time.iter().map(|t| amplitude * wave(*t)).collect();
     let model = binding::model::<f64>(rig, &|_| None);
     let drive = Drive::Recorded { values: &input, first: 0, hold };
-    let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.contact.states()] };
+    let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.contact.states()], shown: None };
     let fine = Tolerance { q: 1e-9, v: 1e-9, z: 1e-8, steps: 10_000_000 };
     let motion = march(&model, &drive, &time, &start, &fine).expect("a motion");
     let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -241,7 +241,7 @@ fn a_window_that_decides_late_between_resting_and_slipping_is_begun_where_its_fi
         time.iter().map(|t| 7.0 * (0.5 * t).sin() + 1.5 * (4.1 * t).sin()).collect();
     let model = binding::model::<f64>(&truth, &|_| None);
     let drive = Drive::Recorded { values: &input, first: 0, hold: Hold::Linear };
-    let start = Start { q: 0.0, v: 0.0, z: vec![0.0] };
+    let start = Start { q: 0.0, v: 0.0, z: vec![0.0], shown: None };
     let fine = Tolerance { q: 1e-10, v: 1e-10, z: 1e-8, steps: 10_000_000 };
     let q = march(&model, &drive, &time, &start, &fine).expect("a motion").q;
     let q = q.iter().map(|q| 1e-7 * (1e7 * q).round()).collect();

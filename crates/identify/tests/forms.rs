@@ -22,7 +22,7 @@ fn moved(rig: &Rig, drive: f64, samples: u32, v: f64) -> Motion {
     let time: Vec<f64> = (0..samples).map(|i| 0.01 * f64::from(i)).collect();
     let values = vec![drive; time.len()];
     let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::ZeroOrder };
-    let start = Start { q: 0.0, v, z: vec![0.0; model.states()] };
+    let start = Start { q: 0.0, v, z: vec![0.0; model.states()], shown: None };
     let tolerance = Tolerance { q: 1e-10, v: 1e-10, z: 1e-10, steps: 10_000_000 };
     march(&model, &drive, &time, &start, &tolerance).expect("a motion")
 }
@@ -86,7 +86,7 @@ fn an_input_that_goes_on_smoothly_is_known_between_its_samples() {
     let (omega, samples) = (0.1 * std::f64::consts::PI, 200_u32);
     let time: Vec<f64> = (0..samples).map(f64::from).collect();
     let values: Vec<f64> = time.iter().map(|t| 3.0 * (omega * t).sin()).collect();
-    let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.states()] };
+    let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.states()], shown: None };
     let tolerance = Tolerance { q: 1e-10, v: 1e-10, z: 1e-10, steps: 10_000_000 };
     let worst = |hold: Hold| {
         let drive = Drive::Recorded { values: &values, first: 0, hold };
@@ -107,6 +107,30 @@ fn friction_may_fall_off_with_the_square_of_the_speed() {
     let v = ends(&rig, 12.0);
     let held = 2.0 + 1.0 / (1.0 + (v / 0.1).powi(2)) + 40.0 * v;
     assert!((held - 12.0).abs() < 1e-6 && v > 0.2, "{held} N at {v} m/s");
+}
+
+#[test]
+fn friction_that_grows_takes_its_drop_along_or_leaves_it_as_it_is() {
+    let (f_c, f_s, v_s, share) = (2.0, 3.0, 0.1_f64, 0.4);
+    let bristles = format!(
+        "name = \"lugre\"\nf_c = {f_c}\nf_s = {f_s}\nv_s = {v_s}\nsigma_0 = 1e4\nsigma_1 = 10.0\nsigma_2 = 40.0"
+    );
+    let stronger = [
+        format!("name = \"friction_drift\"\namount = {share}\ntau = 1e-3\n"),
+        format!("name = \"position_friction\"\nsine = 0.0\ncosine = {share}\nwavenumber = 1e-9\n"),
+        // By as much under the drive of 8 N.
+        format!("name = \"load_friction\"\nratio = {}\n", share * f_c / 8.0),
+    ];
+    for (place, effect) in stronger.iter().enumerate() {
+        let forms = if place == 2 { [2, 5] } else { [2, 3] };
+        for (form, along) in forms.into_iter().zip([true, false]) {
+            let v = ends(&axis(&bristles, &format!("{effect}form = {form}")), 8.0);
+            let drop = (f_s - f_c) * (-(v / v_s).powi(2)).exp();
+            let held = f_c + drop + share * (f_c + if along { drop } else { 0.0 }) + 40.0 * v;
+            assert!((held - 8.0).abs() < 1e-6, "{effect}, {form}: {held} N at {v} m/s");
+            assert!(drop > 0.1, "it shows: {drop} N");
+        }
+    }
 }
 
 #[test]

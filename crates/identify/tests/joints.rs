@@ -30,7 +30,7 @@ fn moved(rig: &Rig, (ahead, v): (f64, f64), time: &[f64], push: f64) -> Motion {
     let model = binding::model::<f64>(rig, &|_| None);
     let values = vec![push; time.len()];
     let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
-    let start = Start { q: ahead, v, z: vec![0.0; model.states()] };
+    let start = Start { q: ahead, v, z: vec![0.0; model.states()], shown: None };
     let tolerance = Tolerance { q: 1e-10, v: 1e-9, z: 1e-9, steps: 10_000_000 };
     march(&model, &drive, time, &start, &tolerance).expect("a motion")
 }
@@ -103,7 +103,7 @@ fn a_load_in_its_gap_is_stopped_by_its_own_friction() {
     let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
     let mut z = vec![0.0; model.states()];
     z[1] = speed;
-    let start = Start { q: 0.5 * gap - 1e-9, v: speed, z };
+    let start = Start { q: 0.5 * gap - 1e-9, v: speed, z, shown: None };
     let tolerance = Tolerance { q: 1e-10, v: 1e-9, z: 1e-9, steps: 10_000_000 };
     let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
     let slows = rubs / load;
@@ -130,7 +130,7 @@ fn the_friction_of_a_load_builds_up_on_its_way() {
     let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
     let mut z = vec![0.0; model.states()];
     z[1] = speed;
-    let start = Start { q: 0.5 * gap - 1e-9, v: 0.0, z };
+    let start = Start { q: 0.5 * gap - 1e-9, v: 0.0, z, shown: None };
     let tolerance = Tolerance { q: 1e-10, v: 1e-9, z: 1e-9, steps: 10_000_000 };
     let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
     // Until it turns: m v²/2 = φ (x − d (1 − e^(−x/d))), by equation (24) with γ = 1.
@@ -181,7 +181,7 @@ fn the_derivatives_of_a_motion_with_a_joint_are_those_of_its_differences() {
             let drive = vec![2.0; time.len()];
             let drive = Drive::Recorded { values: &drive, first: 0, hold: Hold::Linear };
             let zero = Dual::<2>::from(0.0);
-            let start = Start { q: zero, v: zero, z: vec![zero; model.states()] };
+            let start = Start { q: zero, v: zero, z: vec![zero; model.states()], shown: None };
             let mut by = Vec::new();
             replay(&model, (&drive, &time), &here.tape, &start, &mut |_, q, _, _| {
                 by.push(q.eps[0]);

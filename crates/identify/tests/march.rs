@@ -25,7 +25,7 @@ fn driven(plant: &Plant, contact: Contact<f64>, sigma_2: f64) -> Model<f64> {
 
 fn go(model: &Model<f64>, values: &[f64], time: &[f64], (q, tight): (f64, f64)) -> Motion {
     let drive = Drive::Recorded { values, first: 0, hold: Hold::Linear };
-    let start = Start { q, v: 0.0, z: vec![0.0; model.contact.states()] };
+    let start = Start { q, v: 0.0, z: vec![0.0; model.contact.states()], shown: None };
     let tolerance = Tolerance { q: 0.3 * tight, v: 0.2 * tight, z: tight, steps: 10_000_000 };
     march(model, &drive, time, &start, &tolerance).expect("a motion")
 }
@@ -131,7 +131,7 @@ fn a_held_force_that_comes_late_moves_a_mass_as_its_own_steps_do() {
         let rig = identify::Rig::parse(&text(delay)).expect("a rig");
         let model = binding::model::<f64>(&rig, &|_| None);
         let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::ZeroOrder };
-        let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.contact.states()] };
+        let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.contact.states()], shown: None };
         let tolerance = Tolerance { q: 1e-9, v: 1e-9, z: 1e-9, steps: 100_000 };
         let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
         // Until the edge the last value acts, from there on the next.
@@ -155,7 +155,7 @@ fn a_held_force_that_comes_late_moves_a_mass_as_its_own_steps_do() {
         // A window that begins later still gets what was on its way when it did.
         let first = 17;
         let drive = Drive::Recorded { values: &values, first, hold: Hold::ZeroOrder };
-        let start = Start { q: motion.q[first], v: motion.v[first], z: start.z };
+        let start = Start { q: motion.q[first], v: motion.v[first], z: start.z, shown: None };
         let later = march(&model, &drive, &time[first..], &start, &tolerance).expect("a motion");
         for (i, (found, whole)) in later.v.iter().zip(&motion.v[first..]).enumerate() {
             assert!(
@@ -183,7 +183,7 @@ fn a_held_force_that_comes_late_finds_a_plant_that_settles_between_two_samples()
         let rig = identify::Rig::parse(&text(delay)).expect("a rig");
         let model = binding::model::<f64>(&rig, &|_| None);
         let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::ZeroOrder };
-        let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.contact.states()] };
+        let start = Start { q: 0.0, v: 0.0, z: vec![0.0; model.contact.states()], shown: None };
         let tolerance = Tolerance { q: 1e-9, v: 1e-7, z: 1e-9, steps: 100_000 };
         march(&model, &drive, &time, &start, &tolerance).expect("a motion")
     };
@@ -201,7 +201,7 @@ fn a_held_force_that_comes_late_finds_a_plant_that_settles_between_two_samples()
         });
         let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::ZeroOrder };
         let zero = Dual::from(0.0);
-        let start = Start { q: zero, v: zero, z: vec![zero; model.contact.states()] };
+        let start = Start { q: zero, v: zero, z: vec![zero; model.contact.states()], shown: None };
         replay(&model, (&drive, &time), &motion.tape, &start, &mut |i, q, _, _| {
             if i == 3 {
                 assert!((q.eps[0] + v).abs() < 1e-4, "{delay} s late: {} for {}", q.eps[0], -v);

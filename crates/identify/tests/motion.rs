@@ -18,7 +18,7 @@ fn times(step: f64, count: u32) -> Vec<f64> {
 }
 
 fn run(model: &Model<f64>, u: &[f64], time: &[f64], [q, v]: [f64; 2], rtol: f64) -> Motion {
-    let start = Start { q, v, z: vec![0.0; model.contact.states()] };
+    let start = Start { q, v, z: vec![0.0; model.contact.states()], shown: None };
     let tolerance = Tolerance { q: rtol, v: rtol, z: rtol, steps: 10_000_000 };
     march(
         model,
@@ -159,7 +159,7 @@ fn a_contact_that_holds_the_drive_with_effects_rests() {
             // As an element of its own left it, half way through its deadband.
             let others = vec![0.5; model.states() - model.contact.states()];
             let z = model.holding((0.0, u), [q, 0.0], &others);
-            let start = Start { q, v: 0.0, z: [z, others].concat() };
+            let start = Start { q, v: 0.0, z: [z, others].concat(), shown: None };
             let tolerance = Tolerance { q: 1e-12, v: 1e-12, z: 1e-9, steps: 1_000_000 };
             let drive = Drive::Recorded { values: &vec![u; 101], first: 0, hold: Hold::Linear };
             let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");

@@ -44,6 +44,10 @@ impl Walk<'_> {
         (mut effects, start): (Vec<Found>, &Gram),
         context: &Context,
     ) -> Result<Discovery, FitError> {
+        let (mut values, mut parameters) = self.moved(rig)?;
+        if self.unmoved(rig, &effects, &parameters) {
+            (values, parameters) = self.moved(rig)?;
+        }
         let [first, nominal, last] =
             [before, refit, &self.best].map(|f| self.judged(&f.blocks).level());
         let mostly = [refit, &self.best].map(|f| self.leaves(f));
@@ -52,7 +56,6 @@ impl Walk<'_> {
         let hangs = !effects.is_empty() && self.hangs_together(&self.best);
         let unexplained = mostly[1] > MORE || struck || hangs;
         let mut map = if unexplained { self.map(context)? } else { None };
-        let (mut values, mut parameters) = self.moved(rig)?;
         if effects.is_empty()
             && self.unsure_which(rig, &parameters)
             && let Some(one) = self.one_wrong(rig)?

@@ -40,7 +40,7 @@ const HEAT: usize = 6;
 const KEPT: usize = 8;
 
 /// The same for smooth effects, of which the worst are seen sooner.
-const HEATS: [(usize, usize); 2] = [(3, 14), (HEAT, KEPT)];
+pub(super) const HEATS: [(usize, usize); 2] = [(3, 14), (HEAT, KEPT)];
 
 /// Of those that go on so many do at once; what leaves so many times what the nearest does on short windows is behind.
 const AT_ONCE: usize = 2;

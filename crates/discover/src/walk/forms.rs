@@ -120,7 +120,7 @@ impl Walk<'_> {
 }
 
 /// `rig` with an effect of this kind in each of the other forms that it may take; none without the effect.
-fn forms(kind: Kind, rig: &Rig) -> Vec<Rig> {
+pub(super) fn forms(kind: Kind, rig: &Rig) -> Vec<Rig> {
     let form = format!("{}.form", kind.about().name);
     let Some(own) = rig.value(&form) else { return Vec::new() };
     let set = |other: &f64| {

@@ -17,9 +17,11 @@ mod places;
 mod plain;
 mod polish;
 mod says;
+mod simpler;
 mod springs;
 mod strayed;
 mod tone;
+mod unmoved;
 mod waves;
 
 use crate::{
@@ -39,7 +41,6 @@ use identify::{
 };
 use named::{ALL, NOTHING, found};
 use polish::CLOSE_TO;
-use waves::waves;
 
 /// The windows of a block in a first search.
 const SHORT: usize = 4;
@@ -345,6 +346,8 @@ impl Walk<'_> {
         }
         let others = self.other_forms(&all, context);
         all.extend(self.finely(others)?);
+        let simpler = self.simpler(&now, &all, context);
+        all.extend(self.finely(simpler)?);
         let rated = self.rated(all, context);
         self.rank(&rated, (round, &now));
         if round == 0 {
@@ -362,11 +365,6 @@ impl Walk<'_> {
         }
         self.best = best.fitted.clone();
         Ok(Some(found))
-    }
-
-    /// The sizes of the record with the waves that a model leaves.
-    fn waved(&self, fitted: &Fitted, context: &Context) -> Context {
-        Context { waves: waves(&self.board, fitted, context), ..*context }
     }
 
     /// Whether what is named explains all but what noise that is not white may leave.

@@ -185,7 +185,7 @@ impl<'a> Walk<'a> {
     }
 
     /// A model refitted from the given values of what is no effect's, by way of short windows, to its end.
-    fn anew(&self, rig: &Rig) -> Result<Fitted, FitError> {
+    pub(super) fn anew(&self, rig: &Rig) -> Result<Fitted, FitError> {
         let mut rig = rig.clone();
         for name in rig.free.clone().iter().filter(|name| !name.contains('.')) {
             if let Some(given) = self.given.value(name) {

@@ -1,6 +1,7 @@
 //! How long the waves are that a record shows along the way: a wave that is missed by half of its length over the whole
 //! way is not found from there, and there may be hundreds on it.
 
+use super::Walk;
 use crate::{
     board::{Board, Fitted},
     nudge::{self, Left},
@@ -25,6 +26,13 @@ const SLOW: f64 = 0.05;
 /// Of so many waves a force, and a friction, that repeats is tried: parameters that are a little off make crests of
 /// their own, and of friction every wave is tried in several forms.
 const TRIED: [usize; 2] = [WAVES, 2];
+
+impl Walk<'_> {
+    /// The sizes of the record with the waves that a model leaves.
+    pub(super) fn waved(&self, fitted: &Fitted, context: &Context) -> Context {
+        Context { waves: waves(&self.board, fitted, context), ..*context }
+    }
+}
 
 /// The wavenumbers [1/m] of the waves that what a model leaves shows most of, for a force that repeats along the way
 /// and for a friction that does; 0 where there are none.

@@ -132,7 +132,7 @@ fn simulated(data: &Data, rig: &Rig, tolerance: f64) -> Result<(Vec<f64>, Vec<f6
         &model,
         &Drive::Recorded { values: &data.input, first: 0, hold: data.hold },
         &data.time,
-        &Start { q, v: 0.0, z },
+        &Start { q, v: 0.0, z, shown: None },
         &Tolerance {
             q: tolerance * span,
             v: tolerance * data.speed(),

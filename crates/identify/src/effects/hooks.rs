@@ -1,7 +1,7 @@
 //! Where an effect takes hold.
 
 use super::{About, Kind, joint::Joint};
-use crate::march::{Balance, Contact, Real};
+use crate::march::{Balance, Contact, Real, Shown};
 
 /// An instant of a motion, as a law sees it.
 #[derive(Debug, Clone, Copy)]
@@ -180,6 +180,8 @@ pub struct Sense<D> {
     pub rate: f64,
     /// Time since the sample before [s]; 0 at the first.
     pub dt: f64,
+    /// What the velocity sensor was seen to show there, if it is the first and that was looked at.
+    pub shown: Option<Shown>,
 }
 
 /// A load cell at a sample.

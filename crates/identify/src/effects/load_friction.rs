@@ -11,7 +11,7 @@ impl Law for LoadFriction {
         name: "load_friction",
         physics: "Friction grows with the load that the drive carries.",
         channel: Channel::Torque,
-        // Form 1 and 2: by what drives it; 3 and 4: by what springs and weight pull with.
+        // Forms 1, 2 and 5: by what drives it; 3, 4 and 6: by what springs and weight pull with.
         keys: &[Key::positive("ratio", Measure::One, 2.0), Key::probed("form", Measure::One)],
         probes: |c| in_forms(c, &[Vec::new()], if c.loaded { &[1.0, 2.0, 3.0, 4.0] } else { &[1.0, 2.0] }),
         applies: |rig| driven(rig) && rubs(rig),
@@ -20,13 +20,17 @@ impl Law for LoadFriction {
         test: 0.1,
     };
 
-    const FORMS: &[f64] = &[1.0, 2.0, 3.0, 4.0];
+    const FORMS: &[f64] = &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
         let f_c = if at.f_c().re() > 0.0 { at.f_c() } else { D::from(1.0) };
-        let form = p[1].re();
-        let load = if form < 2.5 { at.drive } else { at.pull() };
+        let (form, driven) = match p[1].re() {
+            form if form < 2.5 => (form, true),
+            form if form < 4.5 => (form - 2.0, false),
+            form => (3.0, form < 5.5),
+        };
+        let load = if driven { at.drive } else { at.pull() };
         let load = if load.re() < 0.0 { -load } else { load };
-        grows(D::from(if form < 2.5 { form } else { form - 2.0 }), p[0] * load / f_c)
+        grows(form, p[0] * load / f_c, f_c)
     }
 }

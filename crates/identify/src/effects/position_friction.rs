@@ -19,10 +19,10 @@ impl Law for PositionFriction {
         test: 0.1,
     };
 
-    const FORMS: &[f64] = &[1.0, 2.0];
+    const FORMS: &[f64] = &[1.0, 2.0, 3.0];
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
         let turned = p[2] * at.q;
-        grows(p[3], p[0] * turned.sin() + p[1] * turned.cos())
+        grows(p[3].re(), p[0] * turned.sin() + p[1] * turned.cos(), at.f_c())
     }
 }

@@ -27,7 +27,11 @@ impl Law for VelocityLag {
         let (tau, slope) = (p[0], sense.slope);
         let follows = sense.v - (slope - sense.bend * tau) * tau;
         sense.v = if sense.dt == 0.0 || tau.re() * QUICK < sense.dt {
-            follows
+            // What was before the first is in what is shown there, which is known the better the longer it lasts.
+            sense.shown.filter(|_| sense.dt == 0.0).map_or(follows, |shown| {
+                let square = tau * tau;
+                follows + (-follows + shown.v) * (square / (square + shown.over * shown.over))
+            })
         } else {
             let kept = (-tau.recip() * sense.dt).exp();
             follows + kept * (*memory - follows + slope * sense.dt)

@@ -42,12 +42,12 @@ impl Problem<'_> {
         let mut z = model.contact.shifted(z, shift);
         z.extend(others);
         if !self.rig.two_masses() {
-            return Start { q, v, z };
+            return Start { q, v, z, shown: window.shown };
         }
         // A measured velocity is the motor's, one from the displacement the load's that is not hidden.
         let motors = self.data.velocity.is_some() || model.hides_load();
         let [v, load] = if motors { [v, v - faster] } else { [v + faster, v] };
         let q = model.motor(self.begins(model, window), [q, load], (way, off), &mut z);
-        Start { q, v, z }
+        Start { q, v, z, shown: window.shown }
     }
 }

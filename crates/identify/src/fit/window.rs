@@ -4,7 +4,10 @@ use super::{
     data::{Data, Seen},
     whitening::Whitening,
 };
-use crate::effects::{LONG, Past};
+use crate::{
+    effects::{LONG, Past},
+    march::Shown,
+};
 use std::{ops::Range, sync::Arc};
 
 /// A piece of the record that is simulated in one go.
@@ -29,6 +32,8 @@ pub struct Window {
     /// The last samples before its start: how long each took [s], and how far the displacement had come then since it
     /// last turned [m]. Empty if nobody asked.
     pub lately: Vec<[f64; 2]>,
+    /// What the velocity sensor shows at its start, if there is one and it was looked at to both sides.
+    pub shown: Option<Shown>,
     /// What makes its residuals independent of each other; none if they are so.
     pub whitening: Option<Arc<Whitening>>,
 }
@@ -65,6 +70,7 @@ impl Window {
             path: Vec::new(),
             rested: LONG,
             lately: Vec::new(),
+            shown: None,
             whitening: None,
         };
         let Some(seen) = &data.displacement else { return none };
@@ -97,6 +103,11 @@ impl Window {
         all.path = path;
         all.rested = rested;
         all.lately = lately;
+        all.shown = data.velocity.as_ref().map(|velocity| {
+            let look = &velocity.values[from..end];
+            let v = straight((time, about), look, velocity.noise).0[0];
+            Shown { v, over: 0.5 * BESIDE as f64 * data.sample_time() }
+        });
         all
     }
 

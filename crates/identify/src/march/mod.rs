@@ -30,7 +30,7 @@ pub use dual::{Dual, Real};
 pub use observer::{Measured, observe};
 pub use plant::{Balance, Model};
 pub use replay::{Passage, deviations, passages, replay};
-pub use run::{MotionError, Start, Tolerance, march};
+pub use run::{MotionError, Shown, Start, Tolerance, march};
 pub use tape::{Motion, Tape};
 
 /// The absolute value, whose derivative at zero is that from the right.

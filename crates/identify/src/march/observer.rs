@@ -59,7 +59,8 @@ pub fn observe(
         let rate = model.balance.gain * rate(drive, measured.time, i);
         // What the sensor shows beside the velocity is no force.
         let shown =
-            model.senses([measured.q[i], v, moved, 0.0, 0.0], [rate, dt], &mut memory)[1] - v;
+            model.senses([measured.q[i], v, moved, 0.0, 0.0], ([rate, dt], None), &mut memory)[1]
+                - v;
         for step in 1..=STEPS {
             let share = step as f64 / STEPS as f64;
             let between = |values: &[f64]| values[i] + share * (values[i + 1] - values[i]);

@@ -1,6 +1,9 @@
 //! The plant as the march sees it: one equation for all five kinds.
 
-use super::{Contact, Real, run::Tolerance};
+use super::{
+    Contact, Real,
+    run::{Shown, Tolerance},
+};
 use crate::effects::{Acts, At, Past, Sense, Term};
 
 /// What drives the plant beside friction: T = gain·u + constant − stiffness·q − damping·v − gravity·sin q.
@@ -269,14 +272,15 @@ impl<D: Real> Model<D> {
         self.effects.iter().find_map(|e| e.kind.delay(&e.p))
     }
 
-    /// What the sensors show of the displacement and the velocity [m, m/s]; `memory` has a number for each effect.
+    /// What the sensors show of the displacement and the velocity [m, m/s], at the first sample beside what is `shown` there;
+    /// `memory` has a number for each effect.
     pub(super) fn senses(
         &self,
         [q, v, moved, slope, bend]: [D; 5],
-        [rate, dt]: [f64; 2],
+        ([rate, dt], shown): ([f64; 2], Option<Shown>),
         memory: &mut [D],
     ) -> [D; 2] {
-        let mut sense = Sense { q, v, moved, slope, bend, rate, dt };
+        let mut sense = Sense { q, v, moved, slope, bend, rate, dt, shown };
         for (e, memory) in self.effects.iter().zip(memory) {
             e.kind.sense(&e.p, &mut sense, memory);
         }

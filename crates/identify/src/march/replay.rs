@@ -29,8 +29,9 @@ pub fn replay<const P: usize>(
     let mut sensed = |i: usize, now: [Dual<P>; 3], before: [Dual<P>; 3], (slope, bend)| {
         let dt = if i == 0 { 0.0 } else { time[i] - time[i - 1] };
         let rate = model.balance.gain.re() * rate(drive, time, i);
+        let shown = start.shown.filter(|_| i == 0);
         let now_seen = [now[0], now[1], now[0] - before[0], slope, bend];
-        let [q, v] = model.senses(now_seen, [rate, dt], &mut memory);
+        let [q, v] = model.senses(now_seen, ([rate, dt], shown), &mut memory);
         see(i, q, v, now[2]);
     };
     let zero = Dual::<P>::from(0.0);
@@ -112,6 +113,7 @@ pub fn passages<const P: usize>(
         q: Dual::from(start.q),
         v: Dual::from(start.v),
         z: start.z.iter().copied().map(Dual::from).collect(),
+        shown: start.shown,
     };
     let place = |place: usize, number: &Dual<P>| Dual::variable(number.re, place);
     let mut next = 0;
@@ -139,10 +141,14 @@ pub fn passages<const P: usize>(
         let slope = (state.v - before[1]) / dt;
         let rate = |i: usize| model.balance.gain.re() * rate(drive, time, i);
         if i == 0 {
-            model.senses([before[0], before[1], zero, slope, zero], [rate(0), 0.0], &mut memory);
+            model.senses(
+                [before[0], before[1], zero, slope, zero],
+                ([rate(0), 0.0], start.shown),
+                &mut memory,
+            );
         }
         let now = [shown, state.v, shown - before[0], slope, zero];
-        let seen = model.senses(now, [rate(i + 1), dt], &mut memory);
+        let seen = model.senses(now, ([rate(i + 1), dt], None), &mut memory);
         let states = [state.q, state.v].into_iter().chain(state.z.iter().copied());
         let states = states.chain(memory.iter().copied()).map(|s| s.eps).collect();
         see(Passage { states, seen: seen.map(|y| y.eps) });

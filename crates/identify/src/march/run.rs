@@ -18,6 +18,17 @@ pub struct Start<D> {
     pub v: D,
     /// States of the contact.
     pub z: Vec<D>,
+    /// What the velocity sensor shows there, if that was looked at.
+    pub shown: Option<Shown>,
+}
+
+/// What the velocity sensor shows at the first sample: it may follow what was before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shown {
+    /// The velocity [m/s].
+    pub v: f64,
+    /// The time over which it was looked at [s].
+    pub over: f64,
 }
 
 /// What a step may be wrong by.
@@ -92,13 +103,18 @@ pub fn march(
         }
     }
     if !model.effects.is_empty() {
-        seen(model, drive, time, &mut motion);
+        seen(model, (drive, time), start.shown, &mut motion);
     }
     Ok(motion)
 }
 
 /// Turns displacement and velocity into what the sensors show of them.
-fn seen(model: &Model<f64>, drive: &Drive<'_>, time: &[f64], motion: &mut Motion) {
+fn seen(
+    model: &Model<f64>,
+    (drive, time): (&Drive<'_>, &[f64]),
+    shown: Option<Shown>,
+    motion: &mut Motion,
+) {
     let mut memory = vec![0.0; model.effects.len()];
     let (mut before, mut last) = (motion.q[0], motion.v[0]);
     for i in 0..motion.q.len() {
@@ -115,7 +131,8 @@ fn seen(model: &Model<f64>, drive: &Drive<'_>, time: &[f64], motion: &mut Motion
             _ => (slope, 0.0),
         };
         let now = [q, v, q - before, slope, bend];
-        [motion.q[i], motion.v[i]] = model.senses(now, [rate, dt], &mut memory);
+        let shown = shown.filter(|_| i == 0);
+        [motion.q[i], motion.v[i]] = model.senses(now, ([rate, dt], shown), &mut memory);
         (before, last) = (q, v);
     }
 }

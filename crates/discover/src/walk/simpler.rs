@@ -1,0 +1,141 @@
+//! A simpler rival of the nearest effect, looked for once more.
+
+use super::{
+    Walk,
+    candidates::AFRESH,
+    named::{MOST, numbers},
+};
+use crate::{
+    decide::{Judged, shrink},
+    gram,
+    model::{self, Candidate},
+    screen::Scored,
+};
+use identify::{
+    Rig,
+    effects::{Context, Kind, LAWS},
+};
+use rayon::prelude::*;
+
+/// It is begun with so much of the natural sizes of its amounts, at each of its probes.
+const AMOUNTS: [f64; 2] = [0.1, 0.3];
+
+/// After so many simulations so many of these go on: they come down a long valley.
+const HEATS: [(usize, usize); 2] = [(6, 14), (12, 6)];
+
+/// So many of what is begun are followed to their ends.
+const ENDED: usize = 2;
+
+impl Walk<'_> {
+    /// What the nearest candidate is confused with and needs fewer numbers, a shape among them, if it was a candidate as
+    /// well, once more: from all of its probes and beside the given values. What has more numbers comes down from wherever
+    /// it was begun; a Stribeck velocity that is too large ends in a minimum of its own, where the bristles are stiffer than
+    /// they are, and friction that ages makes up for it.
+    pub(super) fn simpler(
+        &self,
+        now: &Judged,
+        all: &[Candidate],
+        context: &Context,
+    ) -> Vec<Candidate> {
+        let plausible = all.iter().filter(|c| self.fits(c, context));
+        let plausible: Vec<Candidate> = plausible.cloned().collect();
+        let Some((best, least)) = self.nearest(&plausible) else { return Vec::new() };
+        if shrink(now.level(), least) < MOST {
+            return Vec::new();
+        }
+        let rival = |kind: &&Kind| {
+            best.kind.about().confused.contains(&kind.about().name)
+                && (2..numbers(best.kind)).contains(&numbers(**kind))
+                && kind.tried().is_empty()
+                && plausible.iter().any(|c| c.kind == **kind)
+        };
+        let begun = |kind: &Kind| -> Vec<(Kind, Rig)> {
+            let probes = (kind.about().probes)(context);
+            let each = probes.iter().flat_map(|probe| AMOUNTS.map(|amount| (probe, amount)));
+            let one = |(probe, amount): (&Vec<f64>, f64)| {
+                let values = gram::tried(*kind, probe, amount, context);
+                (*kind, model::with(&self.origin, &Scored::unscored(*kind, values)))
+            };
+            each.map(one).collect()
+        };
+        let again = |kind: &Kind| {
+            let board = if self.board.imposed() { &self.board } else { &self.short };
+            let near = board.raced(&begun(kind), &HEATS, &AFRESH);
+            let mut near = self.longer(near, (now, context));
+            let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
+            near.retain(|c| self.fits(c, context));
+            near.sort_by(|a, b| level(a).total_cmp(&level(b)));
+            near.truncate(ENDED);
+            near
+        };
+        let all: Vec<Candidate> = LAWS.iter().filter(rival).flat_map(again).collect();
+        let ended = |c: &Candidate| {
+            Some(Candidate { kind: c.kind, fitted: self.ended(c.fitted.clone()).ok()? })
+        };
+        all.par_iter().filter_map(ended).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        model::Candidate,
+        walk::made::{context, walk, with},
+    };
+    use identify::{
+        Hold, Rig,
+        effects::Kind,
+        fit::{Data, Seen},
+    };
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    const DRY: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n[friction]\n\
+        name = \"coulomb\"\nf_c = 0.5\nsigma_2 = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n";
+
+    /// x = sin 2t of that mass, whose dry friction is higher by 0.3 N exp(−(v/0.2)²); noise of 0.1 mm.
+    fn slower() -> Data {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
+        let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
+        let input = time.iter().map(|t| {
+            let (s, c) = f64::sin_cos(2.0 * t);
+            let v = 2.0 * c;
+            let level = 0.5 + 0.3 * (-(v / 0.2_f64).powi(2)).exp();
+            (3.0 - 2.0 * 4.0) * s + 0.5 * v + level * v.signum()
+        });
+        let input = input.collect();
+        let seen = time.iter().map(|t| (2.0 * t).sin() + 1e-4 * noise()).collect();
+        Data::driven(time, input, Hold::Linear, Seen::new("position", seen, 0.0))
+    }
+
+    #[test]
+    fn a_simpler_rival_is_begun_once_more_beside_a_richer_one() {
+        let (data, rig) = (slower(), Rig::parse(DRY).unwrap());
+        let walk = walk(&rig, &data, &[]);
+        let (now, context) = (walk.judged(&walk.best.blocks), context(&walk));
+        let candidate = |kind: Kind, rig: &Rig| Candidate {
+            kind,
+            fitted: walk.board.judged(rig, None).unwrap(),
+        };
+        let stribeck = |drop: f64, v_s: f64| with(&rig, Kind::Stribeck, &[drop, v_s, 1.0]);
+        let level = |c: &Candidate| walk.judged(&c.fitted.blocks).level();
+        // Ageing beside the truth is as near as can be; the other is not where it belongs.
+        let ages = with(&stribeck(0.3, 0.2), Kind::DwellStiction, &[1e-6, 0.5, 1.0]);
+        let richer = candidate(Kind::DwellStiction, &ages);
+        let astray = candidate(Kind::Stribeck, &stribeck(0.05, 1.5));
+        assert!(level(&richer) < 1.2 && level(&astray) > 2.0, "{}", level(&astray));
+        let found = walk.simpler(&now, &[richer.clone(), astray.clone()], &context);
+        let (nearest, left) = walk.nearest(&found).expect("it is begun");
+        assert!(nearest.kind == Kind::Stribeck && left < 1.2, "{left}");
+        let v_s = nearest.fitted.rig.value("stribeck.v_s").unwrap();
+        assert!((v_s / 0.2 - 1.0).abs() < 0.05, "{v_s} m/s");
+        // What was no candidate is not begun, nor what is richer itself.
+        assert!(walk.simpler(&now, std::slice::from_ref(&richer), &context).is_empty());
+        let right = candidate(Kind::Stribeck, &stribeck(0.3, 0.2));
+        let aged =
+            candidate(Kind::DwellStiction, &with(&rig, Kind::DwellStiction, &[0.1, 0.5, 1.0]));
+        assert!(walk.simpler(&now, &[right, aged], &context).is_empty());
+    }
+}
