@@ -2,6 +2,7 @@
 
 use super::{Walk, answer::MORE};
 use crate::{board::Fitted, decide::Judged};
+use identify::fit::{problem::Piece, window::Window};
 use nalgebra::{DMatrix, DVector};
 
 /// What is left in one channel may be so much larger than its floor before it is said that more is missing: right models
@@ -178,12 +179,21 @@ impl Walk<'_> {
         Rest { together: self.together(fitted, (channel, of)), told }
     }
 
-    /// Over how many samples what is left in one of `of` channels of a driven motion hangs together [1].
+    /// Over how many samples what is left in one of `of` channels of a driven motion hangs together [1]; a window that went
+    /// astray by itself does so all along.
     fn together(&self, fitted: &Fitted, (channel, of): (usize, usize)) -> f64 {
-        let mut lagged = vec![0.0; LATEST];
-        for (window, piece) in self.board.windows.iter().zip(&fitted.pieces) {
+        let pairs = self.board.windows.iter().zip(&fitted.pieces);
+        let rows = |(window, piece): (&Window, &Piece)| -> Vec<f64> {
             let own = piece.residuals.iter().skip(channel).step_by(of).take(window.len());
-            let rows: Vec<f64> = own.copied().collect();
+            own.copied().collect()
+        };
+        let all: Vec<Vec<f64>> = pairs.map(rows).collect();
+        let mean =
+            |rows: &[f64]| rows.iter().map(|r| r * r).sum::<f64>() / rows.len().max(1) as f64;
+        let means: Vec<f64> = all.iter().map(|rows| mean(rows)).collect();
+        let most = STRUCK * middle(&means).unwrap_or(0.0).max(1.0);
+        let mut lagged = vec![0.0; LATEST];
+        for (rows, _) in all.iter().zip(means).filter(|(_, mean)| *mean < most) {
             for (i, row) in rows.iter().enumerate() {
                 for (sum, before) in lagged.iter_mut().zip(rows[..=i].iter().rev()) {
                     *sum += row * before;
@@ -212,11 +222,16 @@ fn features([q, v, u]: [f64; 3], before: [f64; 3]) -> Vec<f64> {
     own.into_iter().chain(across).chain(dry).chain(past).collect()
 }
 
+/// The middle one of some numbers.
+fn middle(all: &[f64]) -> Option<f64> {
+    let mut sorted = all.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied()
+}
+
 /// So many times the middle of the blocks all of some neighbouring ones are far off at least [1].
 fn run(blocks: &[f64]) -> f64 {
-    let mut sorted = blocks.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let Some(middle) = sorted.get(sorted.len() / 2) else { return 0.0 };
+    let Some(middle) = middle(blocks) else { return 0.0 };
     let least = |run: &[f64]| run.iter().copied().fold(f64::INFINITY, f64::min);
     blocks.windows(LASTING).map(least).fold(0.0, f64::max) / middle.max(1.0)
 }
@@ -275,6 +290,22 @@ mod tests {
             assert!(!hangs(&noisier(lasts), made::BIAS), "noise of which {lasts} lasts");
         }
         assert!(hangs(&made::data(), 0.5 * made::BIAS));
+    }
+
+    #[test]
+    fn one_window_that_went_astray_hangs_together_by_itself() {
+        let data = made::data();
+        let right = made::with(&made::rig(2.0), Kind::CurrentBias, &[made::BIAS]);
+        let walk = made::walk(&right, &data, &[]);
+        let off = |by: f64, every: usize| {
+            let mut astray = walk.best.clone();
+            for piece in astray.pieces.iter_mut().skip(3).step_by(every) {
+                piece.residuals.iter_mut().for_each(|r| *r += by);
+            }
+            walk.hangs_together(&astray)
+        };
+        assert!(!off(3.0, 1000), "a single one");
+        assert!(off(1.5, 2), "every other one, each by less");
     }
 
     #[test]
