@@ -31,11 +31,10 @@ fn a_late_velocity_begins_with_what_is_shown() {
         let exact = |t: f64| 0.2 + (t - tau * (1.0 - (-t / tau).exp())) / mass;
         time.iter().zip(&motion.v).map(|(t, v)| (v - exact(*t)).abs()).fold(0.0, f64::max)
     };
-    let shown = |over: f64| worst(Some(Shown { v: 0.2, over }));
+    let shown = |half: f64| worst(Some(Shown { v: 0.2, half }));
     assert!(shown(1e-6) < 1e-9, "{}", shown(1e-6));
     // As if it had been driven so for long it begins with 0.2 m/s less τ times the acceleration.
     assert!((worst(None) - tau / mass).abs() < 1e-9);
-    // Looked at for as long as the sensor takes, what is shown is worth a half.
     assert!((shown(tau) - 0.5 * tau / mass).abs() < 1e-9);
 }
 

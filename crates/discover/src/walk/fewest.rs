@@ -61,11 +61,17 @@ impl Walk<'_> {
         several(parameters) || none && parameters.iter().filter(own).any(|p| moved(rig, &p.found))
     }
 
+    /// What is tied to its given value and not loose already.
+    pub(super) fn tied(&self, rig: &Rig) -> Vec<(String, f64)> {
+        let mut tied = board::tied(rig);
+        tied.retain(|(name, _)| !self.board.loose.iter().any(|(loose, _)| loose == name));
+        tied
+    }
+
     /// The parameter that alone is wrong, and the model in which the others are a little off at most for the last one,
     /// if it is surely no worse.
     pub(super) fn one_wrong(&mut self, rig: &Rig) -> Result<Option<String>, FitError> {
-        let mut tied = board::tied(rig);
-        tied.retain(|(name, _)| !self.board.loose.iter().any(|(loose, _)| loose == name));
+        let tied = self.tied(rig);
         let with = |name: &str| -> Board<'_> {
             let own = tied.iter().filter(|(tied, _)| tied != name);
             let loose = own.chain(&self.board.loose).cloned().collect();

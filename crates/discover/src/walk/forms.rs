@@ -147,30 +147,9 @@ fn spared(rig: &Rig, values: &[(&str, f64)]) -> Rig {
 mod tests {
     use crate::{
         model::Candidate,
-        walk::made::{context, rig, walk, with},
+        walk::made::{DRY, context, rig, taken, walk, with},
     };
-    use identify::{
-        Hold,
-        effects::{Context, Kind},
-        fit::{Data, Seen},
-    };
-    use rand::SeedableRng;
-    use rand_chacha::ChaCha8Rng;
-    use rand_distr::{Distribution, StandardNormal};
-
-    /// x = sin 2t of 2 kg on 3 N/m, viscous by 0.5 N·s/m, under a force that this much is taken from; noise of 0.1 mm.
-    fn taken(much: impl Fn(f64, f64) -> f64) -> Data {
-        let mut random = ChaCha8Rng::seed_from_u64(7);
-        let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
-        let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
-        let input = time.iter().map(|t| {
-            let (s, c) = f64::sin_cos(2.0 * t);
-            (3.0 - 2.0 * 4.0) * s + 0.5 * 2.0 * c + much(s, 2.0 * c)
-        });
-        let input = input.collect();
-        let seen = time.iter().map(|t| (2.0 * t).sin() + 1e-4 * noise()).collect();
-        Data::driven(time, input, Hold::Linear, Seen::new("position", seen, 0.0))
-    }
+    use identify::effects::{Context, Kind};
 
     #[test]
     fn an_overtone_is_found_beside_its_wave() {
@@ -192,9 +171,6 @@ mod tests {
         let off = (value("phase_2") - 2.0).rem_euclid(std::f64::consts::TAU);
         assert!(off.min(std::f64::consts::TAU - off) < 0.05, "{}", value("phase_2"));
     }
-
-    const DRY: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n[friction]\n\
-        name = \"coulomb\"\nf_c = 0.5\nsigma_2 = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n";
 
     #[test]
     fn the_form_that_comes_nearer_is_taken() {

@@ -137,3 +137,21 @@ pub(crate) fn slides(f_c: f64) -> Rig {
     );
     Rig::parse(&text).unwrap()
 }
+
+/// The same mass with dry friction besides.
+pub(crate) const DRY: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n[friction]\n\
+    name = \"coulomb\"\nf_c = 0.5\nsigma_2 = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n";
+
+/// x = sin 2t of 2 kg on 3 N/m, viscous by 0.5 N·s/m, under a force that this much is taken from; noise of 0.1 mm.
+pub(crate) fn taken(much: impl Fn(f64, f64) -> f64) -> Data {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
+    let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
+    let input = time.iter().map(|t| {
+        let (s, c) = f64::sin_cos(2.0 * t);
+        (3.0 - 2.0 * 4.0) * s + 0.5 * 2.0 * c + much(s, 2.0 * c)
+    });
+    let input = input.collect();
+    let seen = time.iter().map(|t| (2.0 * t).sin() + 1e-4 * noise()).collect();
+    Data::driven(time, input, Hold::Linear, Seen::new("position", seen, 0.0))
+}

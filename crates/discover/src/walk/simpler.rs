@@ -80,39 +80,16 @@ impl Walk<'_> {
 mod tests {
     use crate::{
         model::Candidate,
-        walk::made::{context, walk, with},
+        walk::made::{DRY, context, taken, walk, with},
     };
-    use identify::{
-        Hold, Rig,
-        effects::Kind,
-        fit::{Data, Seen},
-    };
-    use rand::SeedableRng;
-    use rand_chacha::ChaCha8Rng;
-    use rand_distr::{Distribution, StandardNormal};
-
-    const DRY: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n[friction]\n\
-        name = \"coulomb\"\nf_c = 0.5\nsigma_2 = 0.5\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n";
-
-    /// x = sin 2t of that mass, whose dry friction is higher by 0.3 N exp(−(v/0.2)²); noise of 0.1 mm.
-    fn slower() -> Data {
-        let mut random = ChaCha8Rng::seed_from_u64(7);
-        let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
-        let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
-        let input = time.iter().map(|t| {
-            let (s, c) = f64::sin_cos(2.0 * t);
-            let v = 2.0 * c;
-            let level = 0.5 + 0.3 * (-(v / 0.2_f64).powi(2)).exp();
-            (3.0 - 2.0 * 4.0) * s + 0.5 * v + level * v.signum()
-        });
-        let input = input.collect();
-        let seen = time.iter().map(|t| (2.0 * t).sin() + 1e-4 * noise()).collect();
-        Data::driven(time, input, Hold::Linear, Seen::new("position", seen, 0.0))
-    }
+    use identify::{Rig, effects::Kind};
 
     #[test]
     fn a_simpler_rival_is_begun_once_more_beside_a_richer_one() {
-        let (data, rig) = (slower(), Rig::parse(DRY).unwrap());
+        // Dry friction of 0.5 N that is higher by 0.3 N exp(−(v/0.2)²).
+        let level = |v: f64| 0.5 + 0.3 * (-(v / 0.2).powi(2)).exp();
+        let data = taken(|_, v| level(v) * v.signum());
+        let rig = Rig::parse(DRY).unwrap();
         let walk = walk(&rig, &data, &[]);
         let (now, context) = (walk.judged(&walk.best.blocks), context(&walk));
         let candidate = |kind: Kind, rig: &Rig| Candidate {

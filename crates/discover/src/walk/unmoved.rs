@@ -2,7 +2,7 @@
 
 use super::{Walk, answer::surely_worse, exchange::kind_of, forms::forms};
 use crate::{
-    board::{self, Fitted},
+    board::Fitted,
     verdict::{Found, Moved},
 };
 use identify::Rig;
@@ -18,8 +18,7 @@ impl Walk<'_> {
         if effects.is_empty() || parameters.iter().all(|p| !p.moved) {
             return false;
         }
-        let mut loose = board::tied(rig);
-        loose.retain(|(name, _)| !self.board.loose.iter().any(|(own, _)| own == name));
+        let mut loose = self.tied(rig);
         loose.extend(self.board.loose.iter().cloned());
         let before = mem::replace(&mut self.board.loose, loose.clone());
         self.short.loose = loose;

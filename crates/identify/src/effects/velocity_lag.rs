@@ -28,9 +28,9 @@ impl Law for VelocityLag {
         let follows = sense.v - (slope - sense.bend * tau) * tau;
         sense.v = if sense.dt == 0.0 || tau.re() * QUICK < sense.dt {
             // What was before the first is in what is shown there, which is known the better the longer it lasts.
-            sense.shown.filter(|_| sense.dt == 0.0).map_or(follows, |shown| {
+            sense.shown.map_or(follows, |shown| {
                 let square = tau * tau;
-                follows + (-follows + shown.v) * (square / (square + shown.over * shown.over))
+                follows + (-follows + shown.v) * (square / (square + shown.half * shown.half))
             })
         } else {
             let kept = (-tau.recip() * sense.dt).exp();

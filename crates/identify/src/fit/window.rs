@@ -106,7 +106,7 @@ impl Window {
         all.shown = data.velocity.as_ref().map(|velocity| {
             let look = &velocity.values[from..end];
             let v = straight((time, about), look, velocity.noise).0[0];
-            Shown { v, over: 0.5 * BESIDE as f64 * data.sample_time() }
+            Shown { v, half: SLOWLY * data.sample_time() }
         });
         all
     }
@@ -183,6 +183,9 @@ fn begins(
     let run_up = if v.abs() > MOVING * v_spread { come * same(come, v) } else { 0.0 };
     ([q, v], [q_spread, v_spread], run_up)
 }
+
+/// A velocity sensor that takes so many samples is begun half with what it shows.
+const SLOWLY: f64 = 2.0;
 
 /// So many samples to either side tell the state at a window's start, where there are so many before it.
 const BESIDE: usize = 4;

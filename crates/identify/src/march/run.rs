@@ -27,8 +27,9 @@ pub struct Start<D> {
 pub struct Shown {
     /// The velocity [m/s].
     pub v: f64,
-    /// The time over which it was looked at [s].
-    pub over: f64,
+    /// A sensor that takes so long [s] begins half with this, half as if the motion had gone on as it does for long: what is
+    /// shown is noisy, and a slower one remembers more.
+    pub half: f64,
 }
 
 /// What a step may be wrong by.
