@@ -170,8 +170,9 @@ pub struct Sense<D> {
     pub q: D,
     /// Velocity [m/s].
     pub v: D,
-    /// How far the displacement has come since the sample before [m].
-    pub moved: D,
+    /// By how much the velocity was more in the mean since the sample before than along a line: it follows a jump of the
+    /// drive at once, or late; 0 at the first [m/s].
+    pub bulge: D,
     /// How fast the velocity changes, as a line since the sample before; at the first, until the next [m/s²].
     pub slope: D,
     /// How fast that changes, by the first three samples; 0 at all but the first [m/s³].

@@ -55,12 +55,10 @@ pub fn observe(
         let dt = measured.time[i + 1] - measured.time[i];
         let delay = model.delay().map(|delay| (delay, measured.time));
         let course = course(drive, i, &[measured.q[i]], delay);
-        let moved = measured.q[i] - measured.q[i.saturating_sub(1)];
         let rate = model.balance.gain * rate(drive, measured.time, i);
         // What the sensor shows beside the velocity is no force.
         let shown =
-            model.senses([measured.q[i], v, moved, 0.0, 0.0], ([rate, dt], None), &mut memory)[1]
-                - v;
+            model.senses([measured.q[i], v, 0.0, 0.0, 0.0], ([rate, dt], None), &mut memory)[1] - v;
         for step in 1..=STEPS {
             let share = step as f64 / STEPS as f64;
             let between = |values: &[f64]| values[i] + share * (values[i + 1] - values[i]);

@@ -276,11 +276,11 @@ impl<D: Real> Model<D> {
     /// `memory` has a number for each effect.
     pub(super) fn senses(
         &self,
-        [q, v, moved, slope, bend]: [D; 5],
+        [q, v, bulge, slope, bend]: [D; 5],
         ([rate, dt], shown): ([f64; 2], Option<Shown>),
         memory: &mut [D],
     ) -> [D; 2] {
-        let mut sense = Sense { q, v, moved, slope, bend, rate, dt, shown };
+        let mut sense = Sense { q, v, bulge, slope, bend, rate, dt, shown };
         for (e, memory) in self.effects.iter().zip(memory) {
             e.kind.sense(&e.p, &mut sense, memory);
         }

@@ -4,7 +4,7 @@ use super::{
     Drive, Dual, Model, Real, Start, Tape,
     course::{Course, course, rate},
     plant::Stage,
-    run::begun,
+    run::{begun, bulge},
     stage::{Base, excess},
     tableau::{A, C, GAMMA},
     tape::Step,
@@ -26,21 +26,23 @@ pub fn replay<const P: usize>(
     let mut seen = Vec::with_capacity(3);
     let mut walker = Again::new(model);
     let mut memory = vec![Dual::<P>::from(0.0); model.effects.len()];
-    let mut sensed = |i: usize, now: [Dual<P>; 3], before: [Dual<P>; 3], (slope, bend)| {
+    let mut sensed = |i: usize, now: [Dual<P>; 4], before: [Dual<P>; 4], (slope, bend)| {
         let dt = if i == 0 { 0.0 } else { time[i] - time[i - 1] };
         let rate = model.balance.gain.re() * rate(drive, time, i);
         let shown = start.shown.filter(|_| i == 0);
-        let now_seen = [now[0], now[1], now[0] - before[0], slope, bend];
+        let bulge =
+            if i == 0 { 0.0.into() } else { bulge(now[3] - before[3], [before[1], now[1]], dt) };
+        let now_seen = [now[0], now[1], bulge, slope, bend];
         let [q, v] = model.senses(now_seen, ([rate, dt], shown), &mut memory);
         see(i, q, v, now[2]);
     };
     let zero = Dual::<P>::from(0.0);
-    let line = |i: usize, now: &[Dual<P>; 3], before: &[Dual<P>; 3]| {
+    let line = |i: usize, now: &[Dual<P>; 4], before: &[Dual<P>; 4]| {
         ((now[1] - before[1]) / (time[i] - time[i - 1]), zero)
     };
     // How fast the velocity changes at first is told by those that follow.
-    let mut first: Vec<[Dual<P>; 3]> = Vec::with_capacity(3);
-    let mut before = [zero; 3];
+    let mut first: Vec<[Dual<P>; 4]> = Vec::with_capacity(3);
+    let mut before = [zero; 4];
     let mut next = 0;
     for i in 0..samples {
         if seen.len() == 3 {
@@ -49,7 +51,7 @@ pub fn replay<const P: usize>(
         let shown = model.displacement(state.q, &state.z);
         seen.push(shown);
         let course = course(drive, i, &seen, model.delay().map(|delay| (delay, time)));
-        let now = [shown, state.v, course.ends[0]];
+        let now = [shown, state.v, course.ends[0], state.q];
         if i < 3 {
             first.push(now);
         }
@@ -125,7 +127,7 @@ pub fn passages<const P: usize>(
         for (k, own) in memory.iter_mut().enumerate() {
             *own = place(2 + n + k, own);
         }
-        let before = [model.displacement(state.q, &state.z), state.v];
+        let before = [model.displacement(state.q, &state.z), state.v, state.q];
         let delay = model.delay().map(|delay| (delay, time));
         let noise = Dual::variable(0.0, 2 + n + memory.len());
         let course = course(drive, i, &[before[0]], delay).raised(noise);
@@ -147,7 +149,8 @@ pub fn passages<const P: usize>(
                 &mut memory,
             );
         }
-        let now = [shown, state.v, shown - before[0], slope, zero];
+        let bulge = bulge(state.q - before[2], [before[1], state.v], dt);
+        let now = [shown, state.v, bulge, slope, zero];
         let seen = model.senses(now, ([rate(i + 1), dt], None), &mut memory);
         let states = [state.q, state.v].into_iter().chain(state.z.iter().copied());
         let states = states.chain(memory.iter().copied()).map(|s| s.eps).collect();

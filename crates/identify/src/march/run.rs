@@ -86,9 +86,11 @@ pub fn march(
 ) -> Result<Motion, MotionError> {
     let mut walker = Walker::new(model, start, tolerance);
     let mut motion = Motion::default();
+    let mut way = Vec::with_capacity(time.len());
     for (i, t) in time.iter().enumerate() {
         motion.q.push(model.displacement(walker.q, &walker.z));
         motion.v.push(walker.v);
+        way.push(walker.q);
         let course = course(drive, i, &motion.q, model.delay().map(|delay| (delay, time)));
         motion.u.push(course.ends[0]);
         if let Some(next) = time.get(i + 1) {
@@ -104,20 +106,20 @@ pub fn march(
         }
     }
     if !model.effects.is_empty() {
-        seen(model, (drive, time), start.shown, &mut motion);
+        seen(model, (drive, time, &way), start.shown, &mut motion);
     }
     Ok(motion)
 }
 
-/// Turns displacement and velocity into what the sensors show of them.
+/// Turns displacement and velocity into what the sensors show of them, where the mass itself went along the `way` [m].
 fn seen(
     model: &Model<f64>,
-    (drive, time): (&Drive<'_>, &[f64]),
+    (drive, time, way): (&Drive<'_>, &[f64], &[f64]),
     shown: Option<Shown>,
     motion: &mut Motion,
 ) {
     let mut memory = vec![0.0; model.effects.len()];
-    let (mut before, mut last) = (motion.q[0], motion.v[0]);
+    let mut last = motion.v[0];
     for i in 0..motion.q.len() {
         let (q, v) = (motion.q[i], motion.v[i]);
         let dt = if i == 0 { 0.0 } else { time[i] - time[i - 1] };
@@ -131,11 +133,17 @@ fn seen(
             (0, Some(third)) => begun([v, motion.v[1], *third], time[1] - time[0]),
             _ => (slope, 0.0),
         };
-        let now = [q, v, q - before, slope, bend];
+        let bulge = if i == 0 { 0.0 } else { bulge(way[i] - way[i - 1], [last, v], dt) };
+        let now = [q, v, bulge, slope, bend];
         let shown = shown.filter(|_| i == 0);
         [motion.q[i], motion.v[i]] = model.senses(now, ([rate, dt], shown), &mut memory);
-        (before, last) = (q, v);
+        last = v;
     }
+}
+
+/// By how much a velocity was more in the mean than along the line between its ends, where the mass came so far in `dt` [s].
+pub(super) fn bulge<D: super::Real>(far: D, [from, to]: [D; 2], dt: f64) -> D {
+    far / dt - (from + to) * 0.5
 }
 
 /// How fast a velocity changes at the first of three samples `dt` [s] apart, and how fast that does, by the parabola
