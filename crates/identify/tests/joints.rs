@@ -117,6 +117,32 @@ fn a_load_in_its_gap_is_stopped_by_its_own_friction() {
 }
 
 #[test]
+fn a_load_in_its_gap_is_slowed_by_its_own_viscous_friction() {
+    let (gap, speed, drags) = (0.2, 0.1, 2.0);
+    let rig = rig(&format!(
+        "name = \"backlash\"\ngap = {gap}\nrubs = 1e-12\nteeth = 1e-4\ndrags = {drags}"
+    ));
+    let time = times(500);
+    let (_, load) = masses();
+    // The motor goes away from the load, which coasts on.
+    let model = binding::model::<f64>(&rig, &|_| None);
+    let values = vec![-1.0; time.len()];
+    let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
+    let mut z = vec![0.0; model.states()];
+    z[1] = speed;
+    let start = Start { q: 0.5 * gap - 1e-9, v: 0.0, z, shown: None };
+    let tolerance = Tolerance { q: 1e-10, v: 1e-9, z: 1e-9, steps: 10_000_000 };
+    let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
+    // Until the motor's other tooth has come: x = v m/d (1 − e^(−t d/m)).
+    let fades = load / drags;
+    for (q, t) in motion.q.iter().zip(&time).filter(|(_, t)| **t < 2.0 * fades) {
+        let exact = speed * fades * (1.0 - (-t / fades).exp());
+        assert!((q - exact).abs() < 1e-6 * gap, "{t} s: {q} m for {exact} m");
+    }
+    assert!(2.0 * fades < time[time.len() - 1], "{fades} s");
+}
+
+#[test]
 fn the_friction_of_a_load_builds_up_on_its_way() {
     let (gap, speed, rubs, gives) = (0.2, 0.1, 0.1, 0.01);
     let rig = rig(&format!(
@@ -159,14 +185,14 @@ fn the_derivatives_of_a_motion_with_a_joint_are_those_of_its_differences() {
     let joints = [
         (
             "compliance",
-            "compliance = 4e-4\ndamping = 0.1\nrubs = 1e-12",
-            ["compliance", "ratio", "damping"].as_slice(),
+            "compliance = 4e-4\ndamping = 0.1\nrubs = 1e-12\ndrags = 0.5",
+            ["compliance", "ratio", "damping", "drags"].as_slice(),
             1e-5,
         ),
         (
             "backlash",
-            "gap = 1e-3\nrubs = 0.03\nteeth = 2e-3\ngives = 1e-6",
-            &["gap", "ratio", "teeth"],
+            "gap = 1e-3\nrubs = 0.03\nteeth = 2e-3\ngives = 1e-6\ndrags = 0.1",
+            &["gap", "ratio", "teeth", "drags"],
             1e-2,
         ),
     ];

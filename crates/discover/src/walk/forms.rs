@@ -16,6 +16,9 @@ const PHASES: [f64; 4] = [0.8, 2.4, 3.9, 5.5];
 /// The way in which the friction of a load builds up is begun at these shares of the record's.
 const WAYS: [f64; 3] = [3e-4, 1e-3, 1e-2];
 
+/// Viscous friction of a load is begun at so much of all friction where it is fastest.
+const DRAGS: f64 = 0.01;
+
 /// A wave that leaves no more than so many times what the nearest does is tried with its overtone.
 const BEHIND: f64 = 10.0;
 
@@ -45,9 +48,12 @@ impl Walk<'_> {
             self.best_of(wave, &PHASES.map(with))
         };
         let gives = |joint: &Candidate| {
-            let name = format!("{}.gives", joint.kind.about().name);
-            let with = |way| spared(&joint.fitted.rig, &[(&name, way * context.span)]);
-            self.best_of(joint, &WAYS.map(with))
+            let of = |key: &str| format!("{}.{key}", joint.kind.about().name);
+            let with = |way| spared(&joint.fitted.rig, &[(&of("gives"), way * context.span)]);
+            let drags = DRAGS * context.force / context.speed;
+            let drags = [spared(&joint.fitted.rig, &[(&of("drags"), drags)])];
+            let all: Vec<Rig> = WAYS.map(with).into_iter().chain(drags).collect();
+            self.best_of(joint, &all)
         };
         let joints = all.iter().filter(|c| !c.kind.tried().is_empty());
         let joint = joints.min_by(|a, b| level(a).total_cmp(&level(b)));

@@ -1,6 +1,6 @@
 //! `backlash`: The load follows the motor only when a gap is used up.
 
-use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, ENCODER, GIVES, Joint}};
+use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, DRAGS, ENCODER, GIVES, Joint}};
 use crate::march::Real;
 
 /// The load follows the motor only when a gap is used up.
@@ -23,6 +23,7 @@ impl Law for Backlash {
             Key::fitted("teeth", Measure::Time),
             ENCODER,
             GIVES,
+            DRAGS,
         ],
         probes: |c| {
             let load = [(0.05, 0.01), (0.05, 0.1), (0.25, 0.01), (0.25, 0.1)].map(|own| (own, 1.0));
@@ -48,6 +49,6 @@ impl Law for Backlash {
         // Teeth that do not ring.
         let mass = p[1] * at.mass;
         let (stiffness, damping) = (mass / (p[3] * p[3]), mass * 2.0 / p[3]);
-        Some(Joint { mass, stiffness, damping, half: Some(p[0] * 0.5), rubs: p[2], gives: p[5] })
+        Some(Joint { mass, stiffness, damping, half: Some(p[0] * 0.5), rubs: p[2], gives: p[5], drags: p[6] })
     }
 }

@@ -1,6 +1,6 @@
 //! `compliance`: The gear gives way like a spring between motor and load.
 
-use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, ENCODER, GIVES, Joint}};
+use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, DRAGS, ENCODER, GIVES, Joint}};
 use crate::march::Real;
 
 /// The gear gives way like a spring between motor and load.
@@ -19,6 +19,7 @@ impl Law for Compliance {
             Key::fitted("rubs", Measure::Force),
             ENCODER,
             GIVES,
+            DRAGS,
         ],
         probes: |c| {
             // A load that rubs much from the first on hides what else it does; where it does, the descent finds it.
@@ -38,6 +39,6 @@ impl Law for Compliance {
     fn joint<D: Real>(p: &[D], at: &At<D>) -> Option<Joint<D>> {
         let (mass, stiffness) = (p[1] * at.mass, p[0].recip());
         let damping = p[2] * (stiffness * mass).sqrt() * 2.0;
-        Some(Joint { mass, stiffness, damping, half: None, rubs: p[3], gives: p[5] })
+        Some(Joint { mass, stiffness, damping, half: None, rubs: p[3], gives: p[5], drags: p[6] })
     }
 }

@@ -3,9 +3,9 @@
 //! The displacement q and the velocity v of the model are the motor's, and so is its friction; springs, weight and
 //! the displacement that is measured are the load's. For a load of mass m at x with the speed w
 //!
-//! m ẇ = F − S(x) − φ sgn w,   M v̇ = all that drives the motor − F,
+//! m ẇ = F − S(x) − φ sgn w − d w,   M v̇ = all that drives the motor − F,
 //!
-//! where F is the force of the joint, S that of springs and weight, and φ the load's own friction. Within a stage all
+//! where F is the force of the joint, S that of springs and weight, φ the load's own dry friction and d its viscous one. Within a stage all
 //! of it is one equation for w with a closed form, so that the motor's velocity stays the only unknown.
 //!
 //! An axis with its encoder on the motor shows the motor's displacement: the load is then seen by its reaction alone.
@@ -21,6 +21,9 @@ const PLACE: usize = 4;
 
 /// The way in which the load's friction builds up; so short a one does not show.
 pub(super) const GIVES: Key = Key::spare("gives", Measure::Length, 1e-9);
+
+/// The load's own viscous friction; so little does not show.
+pub(super) const DRAGS: Key = Key::spare("drags", Measure::Damping, 1e-12);
 
 /// The displacement is the motor's.
 pub(super) const AT_MOTOR: f64 = 2.0;
@@ -45,6 +48,8 @@ pub struct Joint<D> {
     pub rubs: D,
     /// The way in which it builds up [m].
     pub gives: D,
+    /// The load's own viscous friction [N·s/m].
+    pub drags: D,
 }
 
 /// The motion of the load in a stage, whatever the joint does.
@@ -52,7 +57,7 @@ struct Free<D> {
     /// Where it would be at rest, and how fast it was [m, m/s].
     x: D,
     w: D,
-    /// Its momentum per speed, with what its spring adds in the stage [kg].
+    /// Its momentum per speed, with what its spring and its viscous friction add in the stage [kg].
     heavy: D,
     /// What pulls it back [N].
     pull: D,
@@ -78,8 +83,8 @@ impl<D: Real> Joint<D> {
     pub(crate) fn act(&self, at: &At<D>, base: &[D], z: &mut [D]) -> Act<D> {
         let (x, w, bent) = (base[0], base[1], base[2]);
         let (pull, slope) = Self::pull(at, x + w * at.dt);
-        let heavy = self.mass + slope * (at.dt * at.dt);
-        let free = Free { x, w, heavy, pull, bent, dt: at.dt };
+        let heavy = self.mass + slope * (at.dt * at.dt) + self.drags * at.dt;
+        let free = Free { x, w, heavy, pull: pull + self.drags * w, bent, dt: at.dt };
         let (force, speed) = self.force(at, &free);
         z[0] = x + speed * at.dt;
         z[1] = speed;
@@ -156,7 +161,7 @@ impl<D: Real> Joint<D> {
         if way != 0.0 {
             let drives = at.drive - pull - at.f_c() * way - at.balance.damping * at.v;
             let share = self.mass / (self.mass + at.mass);
-            force += drives * share + self.rubs * way;
+            force += drives * share + self.rubs * way + self.drags * at.v;
         }
         let Some(half) = self.half else { return (force + off * at.f_c()) / self.stiffness };
         let off = if off.re() < 0.0 { -off } else { off };
