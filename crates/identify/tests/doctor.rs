@@ -102,6 +102,16 @@ const FAULTS: &[(&str, &str, &str, &str, Plant)] = &[
         }
     }),
     ("axis", "lugre", "clock", "no stamp is later", |_, made| made.of("time").fill(1.0)),
+    ("axis", "lugre", "controller", "samples every 0.01 s, the record every 0.002 s", |rig, _| {
+        rig.controller = Some(identify::rig::Controller {
+            kind: "pd".to_owned(),
+            kp: 1.0,
+            kv: 1.0,
+            limit: 10.0,
+            sample_time: 0.01,
+            hold: identify::Hold::ZeroOrder,
+        });
+    }),
     ("axis", "lugre", "constant", "is 3 m/s throughout", |_, made| made.of("velocity").fill(3.0)),
     ("axis", "lugre", "saturated", "it looks saturated there", |_, made| {
         made.of("force").iter_mut().for_each(|f| *f = f.clamp(-40.0, 40.0));

@@ -53,6 +53,7 @@ pub const FINDINGS: &[&str] = &[
     "gap",
     "jitter",
     "clock",
+    "controller",
     "constant",
     "saturated",
     "outlier",
@@ -194,6 +195,9 @@ pub fn examine(rig: Option<&Rig>, names: &[&str], columns: &Columns) -> Examinat
     };
     let time = clock.map(|i| all.remove(i));
     let sampling = time.as_ref().and_then(|time| sampling::examine(time, &mut findings));
+    if let (Some(rig), Some(sampling)) = (rig, &sampling) {
+        controlled(rig, sampling, &mut findings);
+    }
     for series in &mut all {
         series.facts = instruments::examine(series, rig.is_some(), &mut findings);
     }
@@ -205,6 +209,25 @@ pub fn examine(rig: Option<&Rig>, names: &[&str], columns: &Columns) -> Examinat
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
     let channels = all.into_iter().filter_map(|s| s.facts).collect();
     Examination { sampling, channels, motion, findings }
+}
+
+/// A controller's time may differ from the record's by this share of it: they are told in numbers of few digits.
+const SAME: f64 = 0.01;
+
+/// A controller is simulated with a sample of the record for each of its own.
+fn controlled(rig: &Rig, sampling: &Sampling, findings: &mut Findings) {
+    let Some(controller) = &rig.controller else { return };
+    if (controller.sample_time - sampling.step).abs() <= SAME * sampling.step {
+        return;
+    }
+    let text = format!(
+        "the controller samples every {} s, the record every {} s: what it commanded between two rows is not in it",
+        series::n(controller.sample_time),
+        series::n(sampling.step)
+    );
+    let remedy = "record every sample of the controller, or take [controller] and what the input does between its samples out \
+                  of the rig file: then the recorded input is taken as it is";
+    findings.problem("controller", "time", text, remedy);
 }
 
 fn examine_motion(
