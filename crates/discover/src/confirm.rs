@@ -3,7 +3,6 @@
 use crate::Gap;
 use identify::{
     Rig,
-    doctor::noise,
     fit::{Data, FitError, Simulated, Trace, simulate},
     rig,
 };
@@ -69,7 +68,7 @@ pub fn confirm(nominal: &Rig, model: &Rig, data: &Data) -> Result<Confirmed, Fit
 /// simulated, and an imposed motion is what it is: there it moves none.
 fn spread(model: &Rig, data: &Data, plain: &Simulated) -> Vec<f64> {
     let mut squares = vec![(0.0, 0.0); plain.traces.len()];
-    let noise = noise(&data.input);
+    let noise = data.noise_of_input();
     let alone = data.force.is_some() || plain.traces.iter().any(|t| t.channel == "input");
     let times = 0..if alone || noise <= 0.0 { 0 } else { TIMES };
     let perturbed = |time: u64| {

@@ -29,7 +29,7 @@ pub(crate) fn whitened(
 /// Standard deviation of the noise of the recorded input. A controller's command jumps with every step of its encoder,
 /// which is no noise: there it is what the record differs by from the command that its own positions ask for.
 fn noise_of_input(data: &Data, rig: &Rig) -> f64 {
-    let least = identify::doctor::noise(&data.input);
+    let least = data.noise_of_input();
     let (Some(c), Some(seen)) = (&rig.controller, &data.displacement) else { return least };
     if data.reference.is_empty() {
         return 0.0;

@@ -1,4 +1,5 @@
-//! An imposed motion at rest: a measured displacement never rests, and a bristle that is shaken by its noise forgets.
+//! What is at rest though its sensor trembles: an imposed displacement, and an input that is held. A bristle that is shaken by
+//! such noise forgets what it holds, and one under load creeps.
 
 use identify::fit::Data;
 use std::borrow::Cow;
@@ -10,12 +11,19 @@ pub(crate) const LEAST: usize = 10;
 /// A slope of so many standard errors is a motion.
 const MOVING: f64 = 4.0;
 
-/// `data` as its motion is simulated: an imposed one rests where it does, a driven one is as it is.
+/// Values that spread by so many standard errors of a variance more than their noise lets them are not at rest.
+const SPREAD: f64 = 4.0;
+
+/// `data` as its motion is simulated: an imposed one rests where it does, and an input is held where it is.
 pub(crate) fn still(data: &Data) -> Cow<'_, Data> {
-    if data.force.is_some() { Cow::Owned(rested(data)) } else { Cow::Borrowed(data) }
+    let mut still = rested(data);
+    if data.force.is_none() {
+        still.averaged = Some(data.noise_of_input());
+    }
+    Cow::Owned(still)
 }
 
-/// `data` with the imposed displacement replaced by its mean wherever it rests.
+/// `data` with the imposed displacement, or the input, replaced by its mean wherever it rests.
 pub(crate) fn rested(data: &Data) -> Data {
     let noise = identify::doctor::noise(&data.input);
     let mut rested = data.clone();
@@ -24,7 +32,8 @@ pub(crate) fn rested(data: &Data) -> Data {
     while first < u.len() {
         let end = quiet(u, first, WITHIN * noise);
         let run = &u[first..end];
-        if run.len() >= LEAST && !moves(run, noise) {
+        let held = || data.force.is_some() || !spreads(run, noise) && stays(data, first, end);
+        if run.len() >= LEAST && !moves(run, noise) && held() {
             let mean = run.iter().sum::<f64>() / run.len() as f64;
             rested.input[first..end].fill(mean);
             first = end;
@@ -47,6 +56,20 @@ fn quiet(u: &[f64], first: usize, range: f64) -> usize {
     u.len()
 }
 
+/// Whether a driven plant is where it was through these samples: while it moves its input may be a slow one.
+fn stays(data: &Data, first: usize, end: usize) -> bool {
+    let seen = data.displacement.as_ref();
+    seen.is_some_and(|seen| quiet(&seen.values[..end], first, WITHIN * seen.noise) == end)
+}
+
+/// Whether the values are further from their mean than their `noise` lets them be, as those of an arc are.
+fn spreads(run: &[f64], noise: f64) -> bool {
+    let n = run.len() as f64;
+    let mean = run.iter().sum::<f64>() / n;
+    let squares: f64 = run.iter().map(|v| (v - mean).powi(2)).sum();
+    squares / (n - 1.0) > noise * noise * (1.0 + SPREAD * (2.0 / (n - 1.0)).sqrt())
+}
+
 /// Whether the values go up or down by more than their `noise` lets them.
 fn moves(run: &[f64], noise: f64) -> bool {
     let n = run.len() as f64;
@@ -58,7 +81,11 @@ fn moves(run: &[f64], noise: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::moves;
+    use super::{moves, still};
+    use crate::walk::made;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
 
     #[test]
     fn a_slow_ramp_is_no_rest() {
@@ -66,5 +93,30 @@ mod tests {
         let still: Vec<f64> = (0..40).map(noise).collect();
         let creeping: Vec<f64> = (0..40).map(|i| noise(i) + 0.1 * i as f64).collect();
         assert!(!moves(&still, 1.0) && moves(&creeping, 1.0));
+    }
+
+    #[test]
+    fn an_input_is_averaged_where_it_is_held_and_the_plant_rests() {
+        // 2 N for a while, in which the plant goes fast, and once more while it rests; else a sine of 1 N.
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let mut data = made::data();
+        let (moves, rests) = (1000..1080, 3000..3200);
+        for i in 0..data.input.len() {
+            let drawn: f64 = StandardNormal.sample(&mut random);
+            let held = moves.contains(&i) || rests.contains(&i);
+            data.input[i] = 0.01 * drawn + if held { 2.0 } else { (0.01 * i as f64).sin() };
+        }
+        let seen = data.displacement.as_mut().expect("it is seen");
+        let there = seen.values[rests.start];
+        seen.values[rests.clone()].fill(there);
+        let shown = data.noise_of_input();
+        let still = still(&data);
+        assert_eq!(still.input[moves.clone()], data.input[moves]);
+        let held = &still.input[rests];
+        let near = held.iter().filter(|u| (*u - 2.0).abs() < 4e-3).count();
+        assert!(near > 180, "{near} of 200");
+        // What is known of its noise is what it was.
+        assert_eq!(still.noise_of_input(), shown);
+        assert!((shown - 0.01).abs() < 1e-3, "{shown} N");
     }
 }

@@ -50,6 +50,9 @@ pub struct Data {
     pub reference: Vec<f64>,
     /// What was added to the controller's command.
     pub added: Vec<f64>,
+    /// Standard deviation of the noise of the input as it was recorded [its unit], where it was averaged since; else what it
+    /// shows.
+    pub averaged: Option<f64>,
 }
 
 impl Data {
@@ -65,7 +68,13 @@ impl Data {
             loads: None,
             reference: Vec::new(),
             added: Vec::new(),
+            averaged: None,
         }
+    }
+
+    /// Standard deviation of the noise of the recorded input [its unit].
+    pub fn noise_of_input(&self) -> f64 {
+        self.averaged.unwrap_or_else(|| crate::doctor::noise(&self.input))
     }
 
     /// The channels of `recording` as the plant of `rig` needs them. A record holds what its rig file names,
@@ -99,6 +108,7 @@ impl Data {
             loads,
             reference: values("reference").unwrap_or_default(),
             added: values("added_input").unwrap_or_default(),
+            averaged: None,
         }
     }
 

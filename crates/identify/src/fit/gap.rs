@@ -48,7 +48,7 @@ pub(super) fn gap(problem: &Problem<'_>, before: &Found, after: &Found) -> Vec<M
         .map(|((channel, before), (_, after))| {
             let of = seen.iter().find_map(|s| s.as_ref().filter(|s| s.name == channel));
             let values = of.map_or(&data.input, |s| &s.values);
-            let noise = of.map_or_else(|| crate::doctor::noise(&data.input), |s| s.noise);
+            let noise = of.map_or_else(|| data.noise_of_input(), |s| s.noise);
             let squares: f64 = values.iter().map(|v| v * v).sum();
             let size = (squares / values.len().max(1) as f64).sqrt();
             Misfit { channel, before, after, noise, size }

@@ -290,7 +290,7 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     let weights = Weights {
         displacement: noise(data.displacement.as_ref()),
         velocity: noise(data.velocity.as_ref()),
-        input: crate::doctor::noise(&data.input).max(1e-9),
+        input: data.noise_of_input().max(1e-9),
         force: noise(data.force.as_ref()),
         loads: [0, 1].map(|i| noise(data.loads.as_ref().map(|l| &l[i]))),
     };
