@@ -9,6 +9,9 @@ pub(super) const LOOSE: f64 = 0.02;
 /// So many times as far it is no little.
 const STRAYED: f64 = 5.0;
 
+/// Of two springs' pulls, which are off each by itself, so many times as far is none.
+const DRAWN: f64 = 3.5;
+
 /// The constant force on the side of the friction.
 pub(super) const OFFSET: &str = "offset";
 
@@ -76,24 +79,27 @@ pub(crate) fn strays(value: f64, given: f64) -> bool {
     value <= 0.0 || (value / given).ln().abs() > STRAYED * LOOSE
 }
 
+/// Whether a value of `rig` that was held near the one `given` is far from it.
+fn away(rig: &Rig, name: &str, given: f64) -> bool {
+    let value = rig.value(name).unwrap_or(given);
+    if name == OFFSET {
+        (value - given).abs() > DRAWN * LOOSE * prestress(rig)
+    } else {
+        strays(value, given)
+    }
+}
+
 impl Board<'_> {
     /// The parameters that were held near their given values and went far from them all the same.
     pub(crate) fn strayed(&self, fitted: &Fitted) -> Vec<String> {
-        let away = |(name, given): &&(String, f64)| {
-            let value = fitted.rig.value(name).unwrap_or(*given);
-            if name == OFFSET {
-                (value - given).abs() > STRAYED * LOOSE * prestress(&fitted.rig)
-            } else {
-                strays(value, *given)
-            }
-        };
+        let away = |(name, given): &&(String, f64)| away(&fitted.rig, name, *given);
         self.loose.iter().filter(away).map(|(name, _)| name.clone()).collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{loose, tied};
+    use super::{away, loose, tied};
     use identify::Rig;
 
     fn names(plant: &str, channels: &str, free: &str) -> Vec<String> {
@@ -125,5 +131,20 @@ mod tests {
              position = \"q\"\n";
         let tied = tied(&Rig::parse(text).unwrap());
         assert_eq!(tied, [("inertia".to_owned(), 1.0), ("f_c".to_owned(), 1.0)]);
+    }
+
+    #[test]
+    fn springs_that_are_drawn_a_little_otherwise_than_told_push_no_further() {
+        // Two springs of 12 N and 16 N at 0.05 m, each off by a fiftieth: 0.02 N·m.
+        let rig = |offset: f64| {
+            let text = format!(
+                "title = \"t\"\n[plant]\nkind = \"drum\"\ninertia = 1e-3\nradius = 0.05\nk_1 = 1.0\nk_2 = 1.0\n\
+                 f_10 = 12.0\nf_20 = 16.0\nmotor_constant = 10.0\ngear_ratio = 50.0\noffset = {offset:?}\n\
+                 [friction]\nname = \"coulomb\"\nf_c = 1.0\n[channels]\ntime = \"t\"\ncurrent = \"i\"\nangle = \"q\"\n"
+            );
+            Rig::parse(&text).unwrap()
+        };
+        assert!(!away(&rig(0.06), "offset", 0.0) && away(&rig(0.08), "offset", 0.0));
+        assert!(!away(&rig(0.06), "inertia", 1.08e-3) && away(&rig(0.06), "inertia", 1.2e-3));
     }
 }

@@ -5,13 +5,20 @@ use crate::{
     board::Fitted,
     decide::shrink,
     maps::{self, Map, Of},
-    verdict::MapOf,
+    verdict::{MapOf, Moved},
 };
-use identify::{effects::Context, fit::FitError};
+use identify::{
+    Rig,
+    effects::Context,
+    fit::{FitError, search::Patience, starts},
+};
 
 /// A map of twelve forces lowers the sum of squares by so much, in units of the floor, if something acts: by chance by
 /// twelve, on 74 records with nothing hidden by 38 at most.
 const ACTS: f64 = 100.0;
+
+/// At the end of a valley, which a map is not to be taken for.
+const DOWN: Patience = Patience { misfit: 1.0, share: 1e-6, simulations: 60 };
 
 /// And where an effect is named, if it is no small part of what that takes away: of 35 right names one left so much, a
 /// twenty-fifth of what it took; two wrong ones left a third, and twice as much.
@@ -22,18 +29,30 @@ const PART: f64 = 0.2;
 const SERIES: f64 = 1.2;
 
 impl Walk<'_> {
-    /// The maps of what a model leaves, the one that lowers the sum of squares most first.
-    fn maps(&self, fitted: &Fitted, context: &Context, of: Of) -> Result<Vec<MapOf>, FitError> {
-        let now = self.judged(&fitted.blocks).level();
+    /// The maps of what a model leaves, the one that lowers the sum of squares most first; and by how much each lowers that
+    /// of the blocks it is not fitted to, but for the two that gain most.
+    fn maps_judged(
+        &self,
+        fitted: &Fitted,
+        (context, of): (&Context, Of),
+    ) -> Result<Vec<(MapOf, f64)>, FitError> {
+        let judged = self.judged(&fitted.blocks);
         let shown = |map: Map| {
             let blocks: Vec<Vec<f64>> = map.left.iter().map(|sum| vec![*sum]).collect();
-            let gone = shrink(now, self.judged(&blocks).level());
+            let with = self.judged(&blocks);
             let Map { of, axis, at, force, gain, .. } = map;
-            MapOf { of, axis, at, force, shrink: gone, gain }
+            let gone = shrink(judged.level(), with.level());
+            (MapOf { of, axis, at, force, shrink: gone, gain }, judged.gained_besides(&with))
         };
         // The residuals are those of the fine steps; the derivatives run along coarser ones (`Problem::slopes`).
         let all = maps::maps(&self.board, fitted, (context, of))?;
         Ok(all.into_iter().map(shown).collect())
+    }
+
+    /// The maps alone.
+    fn maps(&self, fitted: &Fitted, context: &Context, of: Of) -> Result<Vec<MapOf>, FitError> {
+        let all = self.maps_judged(fitted, (context, of))?;
+        Ok(all.into_iter().map(|(map, _)| map).collect())
     }
 
     /// The map that takes away most of what is left.
@@ -43,10 +62,33 @@ impl Walk<'_> {
     }
 
     /// The map of what acts though it leaves hardly more than noise does: one that lowers the sum of squares, beside all
-    /// parameters, by far more than as many numbers do by chance.
-    pub(super) fn faint(&self, context: &Context) -> Result<Option<MapOf>, FitError> {
-        let all = self.maps(&self.best, context, Of::Force)?;
-        Ok(all.into_iter().next().filter(|map| map.gain > ACTS))
+    /// parameters, by far more than as many numbers do by chance, and on blocks that it was not fitted to as well: it goes
+    /// after the windows that went astray. The last model has then gone to the end of its valley, and its
+    /// `parameters` with it.
+    pub(super) fn faint(
+        &mut self,
+        (rig, parameters): (&Rig, &mut [Moved]),
+        context: &Context,
+    ) -> Result<Option<MapOf>, FitError> {
+        let acts = |walk: &Self| -> Result<Option<MapOf>, FitError> {
+            let least = ACTS * walk.grained(&walk.best);
+            let all = walk.maps_judged(&walk.best, (context, Of::Force))?;
+            let acts = |(map, elsewhere): &(MapOf, f64)| map.gain > least && *elsewhere > 0.0;
+            Ok(all.into_iter().find(acts).map(|(map, _)| map))
+        };
+        if acts(self)?.is_none() {
+            return Ok(None);
+        }
+        let x = starts::nominal(&self.board.problem(&self.best.rig, |_| true)?);
+        let down = self.board.fit(&self.best.rig, Some((&x, &self.best.pieces)), &DOWN)?;
+        if self.board.trained(&down) < self.board.trained(&self.best) {
+            self.best = down;
+            let (values, _) = self.values(rig, &|_| false)?;
+            for (parameter, value) in parameters.iter_mut().zip(values) {
+                parameter.found = value;
+            }
+        }
+        acts(self)
     }
 
     /// The map of what the named effects only resemble: one that takes away no small part of what they do, where that
@@ -61,7 +103,7 @@ impl Walk<'_> {
             (0..f.blocks.len()).filter(trained).flat_map(|k| &f.blocks[k]).sum()
         };
         let taken = squares(refit) - squares(&self.best);
-        let least = ACTS.max(PART * taken);
+        let least = (ACTS * self.grained(&self.best)).max(PART * taken);
         // A map does not take away more than there is.
         if least > squares(&self.best) {
             return Ok(None);
@@ -111,7 +153,7 @@ mod tests {
             let right = made::with(&made::rig(2.0), Kind::CurrentBias, &[bias]);
             walk.best = walk.board.judged(&Rig { free: Vec::new(), ..right }, None).unwrap();
             let level = walk.judged(&walk.best.blocks).level();
-            (level, walk.faint(&context).unwrap().map(|map| map.gain))
+            (level, walk.faint((&made::rig(2.0), &mut []), &context).unwrap().map(|map| map.gain))
         };
         let (level, gain) = leaves(made::BIAS);
         assert!(level < 1.2 && gain.is_none(), "{gain:?} where nothing is missing");
@@ -120,6 +162,29 @@ mod tests {
             level < 1.3 && gain.is_some_and(|gain| gain > 2.0 * super::ACTS),
             "{level}, {gain:?}"
         );
+    }
+
+    #[test]
+    fn what_acts_on_the_blocks_alone_that_a_map_is_fitted_to_is_no_force() {
+        let mut data = made::data();
+        let trains: Vec<bool> = {
+            let walk = made::walk(&made::rig(2.0), &data, &[]);
+            let board = &walk.board;
+            let mut trains = vec![false; data.input.len()];
+            for (w, window) in board.windows.iter().enumerate() {
+                trains[window.first..window.end].fill(board.trains[board.block(w)]);
+            }
+            trains
+        };
+        for (u, trains) in data.input.iter_mut().zip(&trains) {
+            *u += made::BIAS + if *trains { 0.05 } else { 0.0 };
+        }
+        let mut walk = made::walk(&made::rig(2.0), &data, &[]);
+        let context = made::context(&walk);
+        let maps = walk.maps(&walk.best, &context, super::Of::Force).unwrap();
+        assert!(maps[0].gain > super::ACTS, "{}", maps[0].gain);
+        let found = walk.faint((&made::rig(2.0), &mut []), &context).unwrap();
+        assert!(found.is_none(), "{found:?}");
     }
 
     #[test]

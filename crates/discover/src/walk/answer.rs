@@ -35,7 +35,7 @@ pub(super) const NOISY: f64 = 1.6;
 pub(super) const NEARLY_ALL: f64 = 0.99;
 
 /// A nominal parameter that moves further was wrong: nominal values are a little off, always.
-const WRONG: f64 = 0.08;
+pub(super) const WRONG: f64 = 0.08;
 
 impl Walk<'_> {
     pub(super) fn answer(
@@ -75,7 +75,7 @@ impl Walk<'_> {
         let levels = ([first, nominal, last], mostly);
         let mut verdict = verdict(&effects, &parameters, levels, (struck, hangs));
         let beyond = match verdict {
-            Verdict::NothingMissing => self.faint(context)?,
+            Verdict::NothingMissing => self.faint((rig, &mut parameters), context)?,
             Verdict::Effect => self.resembled(refit, context)?,
             Verdict::Partial => self.series(refit, effects.len(), context)?,
             _ => None,
@@ -96,7 +96,7 @@ impl Walk<'_> {
             tone,
             ranking: std::mem::take(&mut self.ranking),
             detectability: limits(start, rig),
-            chi_squared: [first, nominal, last],
+            chi_squared: [first, nominal, self.judged(&self.best.blocks).level()],
             hold: None,
             rig: self.best.rig,
         })
@@ -109,6 +109,7 @@ impl Walk<'_> {
             let given = rig.value(&found.name).unwrap_or(f64::NAN);
             let own = !self.board.loose.iter().any(|(name, _)| *name == found.name);
             let surely = own && wrong.contains(&found.name) && moved(rig, found);
+            let surely = surely && !self.drifts_past(found, given);
             Moved { given, found: found.clone(), moved: surely }
         };
         let nominal = values.iter().filter(|v| !v.name.contains('.'));

@@ -13,6 +13,7 @@ use identify::{
     effects::{Context, Kind, LAWS},
     fit::{FitError, binding},
 };
+use rayon::prelude::*;
 
 /// What does not begin smoothly is looked for in so many rounds: where there is a play nothing else comes near, so that it is
 /// found first, or beside what was.
@@ -65,8 +66,9 @@ impl Walk<'_> {
     /// of its own.
     pub(super) fn begun(&self, context: &Context) -> Vec<Candidate> {
         let now = self.judged(&self.best.blocks);
-        let (points, level) = (self.points(), now.level());
-        let lost = points.len() > 1 && level > CLEARLY;
+        let level = now.level();
+        let lost = level > CLEARLY;
+        let points = if lost { vec![&self.origin, &self.best] } else { self.points() };
         let (board, heats) = if lost { (&self.short, &LOST) } else { (&self.board, &HEATS) };
         let there = |fitted: &Fitted| {
             if lost { board.judged(&fitted.rig, None) } else { Ok(fitted.clone()) }
@@ -91,15 +93,26 @@ impl Walk<'_> {
         let alone = there(&self.best).map_or(f64::INFINITY, |best| board.far(&best));
         let least = match level {
             level if level < CLEARLY => f64::INFINITY,
-            _ if lost => alone,
+            _ if self.points().len() > 1 => alone,
             level => alone - SEEN * level.ln(),
         };
-        let raced = raced.filter(|(far, ..)| *far < least).collect();
-        let mut all = self.longer(raced, (&now, context));
+        let raced: Vec<(f64, Kind, Rig)> = raced.filter(|(far, ..)| *far < least).collect();
+        let mut all =
+            if lost { self.by_short(&raced) } else { self.longer(raced, (&now, context)) };
         if let Some((_, least)) = self.nearest(&all) {
             all.retain(|c| self.judged(&c.fitted.blocks).level() < BEHIND * least);
         }
         all
+    }
+
+    /// What came near on short windows, refitted from the given values of what is no effect's, on short windows first: in a
+    /// race these go where a play that is still another one is less wrong.
+    fn by_short(&self, near: &[(f64, Kind, Rig)]) -> Vec<Candidate> {
+        let one = |(_, kind, rig): &(f64, Kind, Rig)| {
+            let fitted = self.board.refit(&self.at_given(rig), Some(&self.short), &AFRESH).ok()?;
+            Some(Candidate { kind: *kind, fitted })
+        };
+        near.par_iter().filter_map(one).collect()
     }
 
     /// A gear that gives way, where the model leaves little more than noise: the stiffness and load that go along best

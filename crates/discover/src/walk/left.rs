@@ -120,7 +120,8 @@ impl Walk<'_> {
     pub(super) fn hangs_together(&self, fitted: &Fitted) -> bool {
         let loads = if self.board.data.loads.is_some() { 2 } else { 0 };
         let of = channels(fitted) - loads;
-        !self.board.imposed() && (0..of).any(|c| self.together(fitted, (c, of)) > TOGETHER)
+        let noise = |c: usize| TOGETHER * if c == 0 { self.grained(fitted) } else { 1.0 };
+        !self.board.imposed() && (0..of).any(|c| self.together(fitted, (c, of)) > noise(c))
     }
 
     /// What one of `of` channels of a driven motion leaves.
@@ -192,17 +193,24 @@ impl Walk<'_> {
             |rows: &[f64]| rows.iter().map(|r| r * r).sum::<f64>() / rows.len().max(1) as f64;
         let means: Vec<f64> = all.iter().map(|rows| mean(rows)).collect();
         let most = STRUCK * middle(&means).unwrap_or(0.0).max(1.0);
-        let mut lagged = vec![0.0; LATEST];
-        for (rows, _) in all.iter().zip(means).filter(|(_, mean)| *mean < most) {
-            for (i, row) in rows.iter().enumerate() {
-                for (sum, before) in lagged.iter_mut().zip(rows[..=i].iter().rev()) {
-                    *sum += row * before;
-                }
+        let own = all.iter().zip(means).filter(|(_, mean)| *mean < most);
+        lasts(own.map(|(rows, _)| &rows[..]), 0.0)
+    }
+}
+
+/// Over how many samples these residuals of some windows hang together [1]; of their squares, so much in all, more is white.
+pub(super) fn lasts<'a>(all: impl Iterator<Item = &'a [f64]>, white: f64) -> f64 {
+    let mut lagged = vec![0.0; LATEST];
+    for rows in all {
+        for (i, row) in rows.iter().enumerate() {
+            for (sum, before) in lagged.iter_mut().zip(rows[..=i].iter().rev()) {
+                *sum += row * before;
             }
         }
-        let shares = lagged.iter().skip(1).map(|sum| sum / lagged[0]);
-        1.0 + 2.0 * shares.take_while(|r| *r > 0.0).sum::<f64>()
     }
+    let all = lagged[0] + white;
+    let shares = lagged.iter().skip(1).map(|sum| sum / all);
+    1.0 + 2.0 * shares.take_while(|r| *r > 0.0).sum::<f64>()
 }
 
 /// How many channels a model has, the load cells among them.

@@ -1,12 +1,15 @@
 //! The way from a record to an answer.
 
 mod acts;
+mod anew;
 mod answer;
 mod beam;
 mod candidates;
+mod drifts;
 mod exchange;
 mod fewest;
 mod forms;
+mod grain;
 mod holds;
 mod joints;
 mod left;

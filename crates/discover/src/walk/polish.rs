@@ -1,7 +1,7 @@
 //! What is done to a model that is near already.
 
 use super::{
-    ABOVE, DOWN, GROSS, REFIT, Walk, astray,
+    DOWN, GROSS, REFIT, Walk,
     exchange::{key_of, kind_of},
     named::{MOST, NOTHING, Rated, SURE, shows},
 };
@@ -121,21 +121,6 @@ impl<'a> Walk<'a> {
         Ok(refit.clone())
     }
 
-    /// The last model refitted with every window begun anew, if that is nearer: where a window begins is looked for
-    /// beside the parameters, and one that was begun far from the truth keeps them in a minimum of its own.
-    pub(super) fn begun_anew(&mut self) -> Result<(), FitError> {
-        if self.board.imposed() || self.judged(&self.best.blocks).level() < ABOVE {
-            return Ok(());
-        }
-        let anew = self.board.fit(&self.best.rig, None, &REFIT)?;
-        let anew = self.board.nearer(&anew, &self.best.pieces)?;
-        let better = self.board.trained(&anew) < self.board.trained(&self.best);
-        if better && !astray(&self.board, &anew, &self.origin) {
-            self.best = anew;
-        }
-        Ok(())
-    }
-
     /// A model that leaves less than `most` is polished before more is looked for: what a search that stopped early
     /// leaves is no effect's.
     pub(super) fn near_the_floor(&mut self, most: f64) -> Result<(), FitError> {
@@ -182,18 +167,6 @@ impl<'a> Walk<'a> {
         let rig = lacking(&fitted.rig, name);
         let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
         self.board.fit(&rig, Some((&x, &fitted.pieces)), &REFIT)
-    }
-
-    /// A model refitted from the given values of what is no effect's, by way of short windows, to its end.
-    pub(super) fn anew(&self, rig: &Rig) -> Result<Fitted, FitError> {
-        let mut rig = rig.clone();
-        for name in rig.free.clone().iter().filter(|name| !name.contains('.')) {
-            if let Some(given) = self.given.value(name) {
-                binding::set(&mut rig, name, given);
-            }
-        }
-        let short = Some(&self.short).filter(|short| !short.imposed());
-        self.ended(self.board.refit(&rig, short, &REFIT)?)
     }
 
     /// Takes away again, where the refitted nominal model leaves no more than the floor, every effect of which no amount
