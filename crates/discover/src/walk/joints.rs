@@ -67,7 +67,7 @@ impl Walk<'_> {
     pub(super) fn begun(&self, context: &Context) -> Vec<Candidate> {
         let now = self.judged(&self.best.blocks);
         let level = now.level();
-        let lost = level > CLEARLY;
+        let (lost, gross) = (level > CLEARLY, self.points().len() > 1);
         let points = if lost { vec![&self.origin, &self.best] } else { self.points() };
         let (board, heats) = if lost { (&self.short, &LOST) } else { (&self.board, &HEATS) };
         let there = |fitted: &Fitted| {
@@ -93,12 +93,15 @@ impl Walk<'_> {
         let alone = there(&self.best).map_or(f64::INFINITY, |best| board.far(&best));
         let least = match level {
             level if level < CLEARLY => f64::INFINITY,
-            _ if self.points().len() > 1 => alone,
+            _ if gross => alone,
             level => alone - SEEN * level.ln(),
         };
         let raced: Vec<(f64, Kind, Rig)> = raced.filter(|(far, ..)| *far < least).collect();
-        let mut all =
-            if lost { self.by_short(&raced) } else { self.longer(raced, (&now, context)) };
+        let mut all = if lost && !gross {
+            self.by_short(&raced)
+        } else {
+            self.longer(raced, (&now, context))
+        };
         if let Some((_, least)) = self.nearest(&all) {
             all.retain(|c| self.judged(&c.fitted.blocks).level() < BEHIND * least);
         }
@@ -106,7 +109,7 @@ impl Walk<'_> {
     }
 
     /// What came near on short windows, refitted from the given values of what is no effect's, on short windows first: in a
-    /// race these go where a play that is still another one is less wrong.
+    /// race these go where a play that is still another one is less wrong. From far off they are right to go.
     fn by_short(&self, near: &[(f64, Kind, Rig)]) -> Vec<Candidate> {
         let one = |(_, kind, rig): &(f64, Kind, Rig)| {
             let fitted = self.board.refit(&self.at_given(rig), Some(&self.short), &AFRESH).ok()?;
