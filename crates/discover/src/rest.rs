@@ -2,7 +2,6 @@
 //! such noise forgets what it holds, and one under load creeps.
 
 use identify::fit::Data;
-use std::borrow::Cow;
 
 /// What lies within so many standard deviations of the noise, over at least so many samples, may be at rest.
 const WITHIN: f64 = 7.0;
@@ -15,12 +14,12 @@ const MOVING: f64 = 4.0;
 const SPREAD: f64 = 4.0;
 
 /// `data` as its motion is simulated: an imposed one rests where it does, and an input is held where it is.
-pub(crate) fn still(data: &Data) -> Cow<'_, Data> {
+pub(crate) fn still(data: &Data) -> Data {
     let mut still = rested(data);
     if data.force.is_none() {
         still.averaged = Some(data.noise_of_input());
     }
-    Cow::Owned(still)
+    still
 }
 
 /// `data` with the imposed displacement, or the input, replaced by its mean wherever it rests.

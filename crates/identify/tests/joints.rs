@@ -91,6 +91,18 @@ fn a_motor_runs_through_its_gap_alone_and_then_takes_the_load_along() {
     }
 }
 
+/// A load that leaves its tooth with this `speed` [m/s] while its motor, which goes at `v` [m/s], is pulled back.
+fn coasting(rig: &Rig, time: &[f64], (gap, speed): (f64, f64), v: f64) -> Motion {
+    let model = binding::model::<f64>(rig, &|_| None);
+    let values = vec![-1.0; time.len()];
+    let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
+    let mut z = vec![0.0; model.states()];
+    z[1] = speed;
+    let start = Start { q: 0.5 * gap - 1e-9, v, z, shown: None };
+    let tolerance = Tolerance { q: 1e-10, v: 1e-9, z: 1e-9, steps: 10_000_000 };
+    march(&model, &drive, time, &start, &tolerance).expect("a motion")
+}
+
 #[test]
 fn a_load_in_its_gap_is_stopped_by_its_own_friction() {
     let (gap, speed, rubs) = (0.2, 0.1, 0.1);
@@ -98,14 +110,7 @@ fn a_load_in_its_gap_is_stopped_by_its_own_friction() {
     let time = times(900);
     let (motor, load) = masses();
     // The motor pushes it for a while and is then pulled back: the load coasts by v²/2 over its deceleration.
-    let model = binding::model::<f64>(&rig, &|_| None);
-    let values = vec![-1.0; time.len()];
-    let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
-    let mut z = vec![0.0; model.states()];
-    z[1] = speed;
-    let start = Start { q: 0.5 * gap - 1e-9, v: speed, z, shown: None };
-    let tolerance = Tolerance { q: 1e-10, v: 1e-9, z: 1e-9, steps: 10_000_000 };
-    let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
+    let motion = coasting(&rig, &time, (gap, speed), speed);
     let slows = rubs / load;
     let coasts = speed * speed / (2.0 * slows);
     let rests = speed / slows;
@@ -125,14 +130,7 @@ fn a_load_in_its_gap_is_slowed_by_its_own_viscous_friction() {
     let time = times(500);
     let (_, load) = masses();
     // The motor goes away from the load, which coasts on.
-    let model = binding::model::<f64>(&rig, &|_| None);
-    let values = vec![-1.0; time.len()];
-    let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
-    let mut z = vec![0.0; model.states()];
-    z[1] = speed;
-    let start = Start { q: 0.5 * gap - 1e-9, v: 0.0, z, shown: None };
-    let tolerance = Tolerance { q: 1e-10, v: 1e-9, z: 1e-9, steps: 10_000_000 };
-    let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
+    let motion = coasting(&rig, &time, (gap, speed), 0.0);
     // Until the motor's other tooth has come: x = v m/d (1 − e^(−t d/m)).
     let fades = load / drags;
     for (q, t) in motion.q.iter().zip(&time).filter(|(_, t)| **t < 2.0 * fades) {
@@ -151,14 +149,7 @@ fn the_friction_of_a_load_builds_up_on_its_way() {
     let time = times(700);
     let (_, load) = masses();
     // The motor goes away from the load, which coasts on with bristles that are not bent yet.
-    let model = binding::model::<f64>(&rig, &|_| None);
-    let values = vec![-1.0; time.len()];
-    let drive = Drive::Recorded { values: &values, first: 0, hold: Hold::Linear };
-    let mut z = vec![0.0; model.states()];
-    z[1] = speed;
-    let start = Start { q: 0.5 * gap - 1e-9, v: 0.0, z, shown: None };
-    let tolerance = Tolerance { q: 1e-10, v: 1e-9, z: 1e-9, steps: 10_000_000 };
-    let motion = march(&model, &drive, &time, &start, &tolerance).expect("a motion");
+    let motion = coasting(&rig, &time, (gap, speed), 0.0);
     // Until it turns: m v²/2 = φ (x − d (1 − e^(−x/d))), by equation (24) with γ = 1.
     let energy = 0.5 * load * speed * speed;
     let taken = |x: f64| rubs * (x - gives * (1.0 - (-x / gives).exp()));

@@ -118,7 +118,7 @@ fn walked(
     others: &[Data],
     options: &Options,
 ) -> Result<End, FitError> {
-    let data = &*crate::rest::still(data);
+    let data = &crate::rest::still(data);
     let fixed = Rig { free: Vec::new(), ..rig.clone() };
     let mut held = board::loosened(rig, &loose);
     let (mut board, mut refit) = nominal(&held, data, &loose, options.seed)?;
