@@ -152,7 +152,7 @@ impl Walk<'_> {
     pub(super) fn rated(&self, candidates: Vec<Candidate>, context: &Context) -> Vec<Rated> {
         let one = |candidate: Candidate| {
             let judged = self.judged(&candidate.fitted.blocks);
-            let plausible = self.fits(&candidate, context);
+            let plausible = self.fits(&candidate, context) && self.sharper(&candidate);
             Rated { candidate, judged, plausible }
         };
         let mut rated: Vec<Rated> = candidates.into_iter().map(one).collect();

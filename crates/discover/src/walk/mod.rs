@@ -21,6 +21,7 @@ mod plain;
 mod polish;
 mod says;
 mod simpler;
+mod smooths;
 mod springs;
 mod strayed;
 mod tone;
@@ -110,7 +111,7 @@ struct End {
     other: Option<Hold>,
 }
 
-/// Looks for what the model `rig` of the record `data` lacks; whether the record is nearer with its input as in one of the `others`
+/// Looks for what the model `rig` lacks; whether the record is nearer with its input as in one of the `others`
 /// is asked on the way.
 fn walked(
     (rig, mut loose): (&Rig, Vec<(String, f64)>),

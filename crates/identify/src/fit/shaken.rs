@@ -222,7 +222,7 @@ impl Shaken {
             let (mut by, mut new) = (by.clone(), new.clone());
             by.row_mut(seen).unscale_mut(weight(i + 1));
             new[seen] /= weight(i + 1);
-            (by, new)
+            (by, DMatrix::from_columns(&[new]))
         });
         let start = self.errors.iter().chain([&self.begun]).map(|b| b * b.transpose());
         Whitening::of(start.sum(), weighed)

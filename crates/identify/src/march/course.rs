@@ -45,10 +45,22 @@ impl<D: Real> Course<D> {
         })
     }
 
-    /// The same with `more` all along it.
-    pub(super) fn raised(self, more: D) -> Self {
-        let knot = self.knot.map(|knot| Knot { sides: knot.sides.map(|side| side + more), ..knot });
-        Self { ends: self.ends.map(|end| end + more), knot }
+    /// The same with so much more recorded at three samples, of which it depends on the last, if it is `held` or is not late
+    /// on the last two, and on all otherwise.
+    pub(super) fn raised(self, [first, second, last]: [D; 3], held: bool) -> Self {
+        let raised = |own: [D; 2], by: [D; 2]| [own[0] + by[0], own[1] + by[1]];
+        let Some(Knot { share, sides }) = self.knot else {
+            let by = if held { [last; 2] } else { [second, last] };
+            return Self { ends: raised(self.ends, by), knot: None };
+        };
+        let by = if held {
+            [[second, last]; 2]
+        } else {
+            let between = |from: D, to: D| to + (from - to) * share.re();
+            [[between(first, second), between(second, last)], [second; 2]]
+        };
+        let sides = raised(sides, by[1]);
+        Self { ends: raised(self.ends, by[0]), knot: Some(Knot { share, sides }) }
     }
 }
 

@@ -9,6 +9,7 @@ use super::{
     tableau::{A, C, GAMMA},
     tape::Step,
 };
+use crate::Hold;
 
 /// Goes over the steps of `tape` with numbers that carry derivatives in their first P − 1 places; the last one
 /// belongs to the stages. Calls `see(i, q, v, u)` at every sample.
@@ -82,11 +83,13 @@ pub fn replay<const P: usize>(
 }
 
 /// How the deviations of a motion go on from one sample to the next, a small one of the states s by A, one of the input's
-/// w by g: s⁺ = A s + g w; and what is seen of them there, y⁺ = C s + d w, y being what the sensors show of displacement
-/// and velocity. The states are displacement, velocity, those of contact and effects, and the sensors' memories.
+/// w by g: s⁺ = A s + Σ g w; and what is seen of them there, y⁺ = C s + Σ d w, y being what the sensors show of displacement
+/// and velocity, over the errors of three samples of the input, of which one that is held depends on the last, one that goes
+/// along a line on the last two, and one that is late on one more. The states are displacement, velocity, those of contact and
+/// effects, and the sensors' memories.
 #[derive(Debug, Clone)]
 pub struct Passage<const P: usize> {
-    /// The new states, each with its derivatives by the old ones and, after them, by the input.
+    /// The new states, each with its derivatives by the old ones and, after them, by the three errors.
     pub states: Vec<[f64; P]>,
     /// The same of displacement and velocity as they are seen.
     pub seen: [[f64; P]; 2],
@@ -97,7 +100,7 @@ pub fn deviations<D: Real>(model: &Model<D>) -> usize {
     2 + model.states() + model.effects.len()
 }
 
-/// Goes over the steps of `tape` with derivatives from sample to sample alone. There have to be two places more than
+/// Goes over the steps of `tape` with derivatives from sample to sample alone. There have to be four places more than
 /// [`deviations`].
 pub fn passages<const P: usize>(
     model: &Model<f64>,
@@ -117,6 +120,7 @@ pub fn passages<const P: usize>(
         z: start.z.iter().copied().map(Dual::from).collect(),
         shown: start.shown,
     };
+    let held = matches!(drive, Drive::Recorded { hold: Hold::ZeroOrder, .. });
     let place = |place: usize, number: &Dual<P>| Dual::variable(number.re, place);
     let mut next = 0;
     for i in 0..tape.until.len() {
@@ -129,8 +133,8 @@ pub fn passages<const P: usize>(
         }
         let before = [model.displacement(state.q, &state.z), state.v, state.q];
         let delay = model.delay().map(|delay| (delay, time));
-        let noise = Dual::variable(0.0, 2 + n + memory.len());
-        let course = course(drive, i, &[before[0]], delay).raised(noise);
+        let noise = [0, 1, 2].map(|k| Dual::variable(0.0, 2 + n + memory.len() + k));
+        let course = course(drive, i, &[before[0]], delay).raised(noise, held);
         walker.interval(
             &mut state,
             &tape.steps[next..tape.until[i]],
