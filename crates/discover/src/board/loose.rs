@@ -18,9 +18,17 @@ pub(super) const OFFSET: &str = "offset";
 /// What a unit of the input gives, plant by plant.
 const DRIVES: &[&str] = &["motor_constant", "gain", "torque_constant", "resistance"];
 
-/// The torque of a drum's two prestressed springs, if both pulled the same way [N·m].
+/// The forces of a drum's springs at rest, where they are seen.
+const PULLS: [&str; 2] = ["f_10", "f_20"];
+
+/// Whether load cells show the springs' forces.
+fn has_cells(rig: &Rig) -> bool {
+    rig.channels.contains_key("force_1")
+}
+
+/// The torque of a drum's two prestressed springs, if both pulled the same way and nothing shows it [N·m].
 pub(super) fn prestress(rig: &Rig) -> f64 {
-    if rig.kind != "drum" || is_free(rig, "f_10") {
+    if rig.kind != "drum" || is_free(rig, "f_10") || has_cells(rig) {
         return 0.0;
     }
     let value = |key: &str| rig.value(key).unwrap_or(0.0);
@@ -31,7 +39,7 @@ pub(super) fn prestress(rig: &Rig) -> f64 {
 pub(crate) fn loose(rig: &Rig) -> Vec<(String, f64)> {
     let keys: &[&str] = match rig.kind {
         // Without load cells the springs' torque hangs on r²k alone.
-        "drum" if rig.channels.contains_key("force_1") => &["inertia", "radius", "k_1", "k_2"],
+        "drum" if has_cells(rig) => &["inertia", "radius", "k_1", "k_2"],
         "drum" => &["inertia", "k_1", "k_2"],
         "mass-spring" => &["mass", "stiffness"],
         "axis" => &["inertia"],
@@ -43,7 +51,8 @@ pub(crate) fn loose(rig: &Rig) -> Vec<(String, f64)> {
     // Where what a drive gives is free as well, what is given of the plant is the scale.
     let driven = DRIVES.iter().any(|key| is_free(rig, key));
     let keys = if driven { &[] } else { keys };
-    let fixed = keys.iter().filter(|key| !is_free(rig, key));
+    let pulls = if rig.kind == "drum" && has_cells(rig) { &PULLS[..] } else { &[] };
+    let fixed = keys.iter().chain(pulls).filter(|key| !is_free(rig, key));
     let some =
         fixed.filter_map(|key| Some(((*key).to_owned(), rig.value(key).filter(|v| *v > 0.0)?)));
     let mut all: Vec<(String, f64)> = some.collect();
@@ -76,24 +85,35 @@ pub(crate) fn loosened(rig: &Rig, loose: &[(String, f64)]) -> Rig {
 
 /// Whether a value is further from the one `given` than what is a little off.
 pub(crate) fn strays(value: f64, given: f64) -> bool {
-    value <= 0.0 || (value / given).ln().abs() > STRAYED * LOOSE
+    strays_by(value, given, STRAYED)
+}
+
+/// The same where so many times a little is far.
+fn strays_by(value: f64, given: f64, far: f64) -> bool {
+    value <= 0.0 || (value / given).ln().abs() > far * LOOSE
 }
 
 /// Whether a value of `rig` that was held near the one `given` is far from it.
 fn away(rig: &Rig, name: &str, given: f64) -> bool {
     let value = rig.value(name).unwrap_or(given);
-    if name == OFFSET {
-        (value - given).abs() > DRAWN * LOOSE * prestress(rig)
-    } else {
-        strays(value, given)
+    match name {
+        OFFSET => (value - given).abs() > DRAWN * LOOSE * prestress(rig),
+        pull if PULLS.contains(&pull) => strays_by(value, given, DRAWN),
+        _ => strays(value, given),
     }
 }
 
 impl Board<'_> {
-    /// The parameters that were held near their given values and went far from them all the same.
+    /// The parameters that were held near their given values and went far from them all the same. Of two springs' pulls
+    /// one is enough: that these differ is one effect, and their mean may still be a little off.
     pub(crate) fn strayed(&self, fitted: &Fitted) -> Vec<String> {
         let away = |(name, given): &&(String, f64)| away(&fitted.rig, name, *given);
-        self.loose.iter().filter(away).map(|(name, _)| name.clone()).collect()
+        let mut all: Vec<String> =
+            self.loose.iter().filter(away).map(|(name, _)| name.clone()).collect();
+        if PULLS.iter().all(|pull| all.iter().any(|name| name == pull)) {
+            all.retain(|name| name != PULLS[0]);
+        }
+        all
     }
 }
 
@@ -146,5 +166,34 @@ mod tests {
         };
         assert!(!away(&rig(0.06), "offset", 0.0) && away(&rig(0.08), "offset", 0.0));
         assert!(!away(&rig(0.06), "inertia", 1.08e-3) && away(&rig(0.06), "inertia", 1.2e-3));
+    }
+
+    #[test]
+    fn what_load_cells_show_is_a_little_off_as_well() {
+        let drum = |pulls: [f64; 2], cells: &str, free: &str| {
+            let [f_10, f_20] = pulls;
+            let text = format!(
+                "title = \"t\"\n[plant]\nkind = \"drum\"\ninertia = 1e-3\nradius = 0.05\nk_1 = 1.0\nk_2 = 1.0\n\
+                 f_10 = {f_10:?}\nf_20 = {f_20:?}\nmotor_constant = 10.0\ngear_ratio = 50.0\n\
+                 [friction]\nname = \"coulomb\"\nf_c = 1.0\n[fit]\nfree = [{free}]\n[channels]\ntime = \"t\"\n\
+                 current = \"i\"\nangle = \"q\"\n{cells}"
+            );
+            Rig::parse(&text).unwrap()
+        };
+        let cells = "force_1 = \"a\"\nforce_2 = \"b\"\n";
+        let names = |cells: &str, free: &str| -> Vec<String> {
+            loose(&drum([12.0, 12.0], cells, free)).into_iter().map(|(name, _)| name).collect()
+        };
+        let known = ["f_c", "motor_constant", "f_10"].map(|name| format!("\"{name}\"")).join(", ");
+        assert_eq!(names(cells, &known), ["f_20"], "whatever the scale of the drive");
+        assert_eq!(names("", "\"f_c\""), ["inertia", "k_1", "k_2", "offset"]);
+        assert_eq!(
+            names(cells, "\"f_c\""),
+            ["inertia", "radius", "k_1", "k_2", "f_10", "f_20"],
+            "what the springs push is seen"
+        );
+        // Up to a fifteenth, each by itself.
+        let far = |f_20: f64| away(&drum([12.0, f_20], cells, ""), "f_20", 12.0);
+        assert!(!far(12.8) && !far(11.2) && far(13.0) && far(11.0));
     }
 }

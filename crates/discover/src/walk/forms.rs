@@ -9,9 +9,12 @@ use identify::{
 };
 use rayon::prelude::*;
 
-/// The overtone of a force that repeats along the way is begun at this share of it, at each of these phases [rad].
+/// The overtone of what repeats along the way is begun at this share of it, at each of these phases [rad].
 const SHARE: f64 = 0.2;
 const PHASES: [f64; 4] = [0.8, 2.4, 3.9, 5.5];
+
+/// What repeats along the way and may have an overtone.
+const WAVES: [Kind; 2] = [Kind::Cogging, Kind::PositionFriction];
 
 /// The way in which the friction of a load builds up is begun at these shares of the record's.
 const WAYS: [f64; 3] = [3e-4, 1e-3, 1e-2];
@@ -33,20 +36,17 @@ const LOWER: f64 = 0.8;
 
 impl Walk<'_> {
     /// The leading candidates in the best of their other forms, one with a load whose friction builds up on a way, and the
-    /// nearest wave with its overtone, each if it comes much nearer so.
+    /// nearest waves with their overtones, each if it comes much nearer so.
     pub(super) fn other_forms(&self, all: &[Candidate], context: &Context) -> Vec<Candidate> {
         let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
         let plausible = all.iter().filter(|c| self.fits(c, context));
         let Some(least) = plausible.map(level).min_by(f64::total_cmp) else { return Vec::new() };
-        let waves = all.iter().filter(|c| c.kind == Kind::Cogging);
-        let wave = waves.min_by(|a, b| level(a).total_cmp(&level(b)));
-        let wave = wave.filter(|wave| level(wave) < BEHIND * least);
-        let overtone = |wave: &Candidate| {
-            let rig = &wave.fitted.rig;
-            let with =
-                |phase| spared(rig, &[("cogging.share_2", SHARE), ("cogging.phase_2", phase)]);
-            self.best_of(wave, &PHASES.map(with))
+        let nearest = |kind: Kind| {
+            let own = all.iter().filter(|c| c.kind == kind);
+            let wave = own.min_by(|a, b| level(a).total_cmp(&level(b)));
+            wave.filter(|wave| level(wave) < BEHIND * least)
         };
+        let waves = WAVES.into_iter().filter_map(nearest);
         let gives = |joint: &Candidate| {
             let of = |key: &str| format!("{}.{key}", joint.kind.about().name);
             let with = |way| spared(&joint.fitted.rig, &[(&of("gives"), way * context.span)]);
@@ -61,7 +61,25 @@ impl Walk<'_> {
         let leading = self.leading(all, context);
         let other =
             leading.into_iter().filter_map(|c| self.best_of(c, &forms(c.kind, &c.fitted.rig)));
-        other.chain(wave.and_then(overtone)).chain(joint.and_then(gives)).collect()
+        let overtones = waves.filter_map(|wave| self.overtone(wave));
+        other.chain(overtones).chain(joint.and_then(gives)).collect()
+    }
+
+    /// A wave with its overtone; where that is the larger, with its own in turn.
+    fn overtone(&self, wave: &Candidate) -> Option<Candidate> {
+        let name = wave.kind.about().name;
+        let keys = ["share_2", "phase_2"].map(|key| format!("{name}.{key}"));
+        let with = |rig: &Rig| {
+            PHASES.map(|phase| spared(rig, &[(keys[0].as_str(), SHARE), (keys[1].as_str(), phase)]))
+        };
+        let mut found = self.best_of(wave, &with(&wave.fitted.rig))?;
+        let on = |found: &Candidate| {
+            twice(&found.fitted.rig, name).and_then(|rig| self.best_of(found, &with(&rig)))
+        };
+        while let Some(next) = on(&found) {
+            found = next;
+        }
+        Some(found)
     }
 
     /// The nearest of each kind that is not far behind the nearest of all; none where that is down at the floor. What is
@@ -137,6 +155,25 @@ pub(super) fn forms(kind: Kind, rig: &Rig) -> Vec<Rig> {
     kind.forms().iter().filter(|other| own != **other).map(set).collect()
 }
 
+/// `rig` with the overtone of an effect's wave in the place of the wave, where it is the larger.
+fn twice(rig: &Rig, name: &str) -> Option<Rig> {
+    let key = |key: &str| format!("{name}.{key}");
+    let [sine, cosine, wavenumber, share, phase] =
+        ["sine", "cosine", "wavenumber", "share_2", "phase_2"].map(|own| rig.value(&key(own)));
+    let (sine, cosine, share) = (sine?, cosine?, share.filter(|share| *share > 1.0)?);
+    let (s, c) = phase?.sin_cos();
+    let mut rig = rig.clone();
+    let values = [
+        ("sine", share * (sine * c - cosine * s)),
+        ("cosine", share * (sine * s + cosine * c)),
+        ("wavenumber", 2.0 * wavenumber?),
+    ];
+    for (own, value) in values {
+        binding::set(&mut rig, &key(own), value);
+    }
+    Some(rig)
+}
+
 /// `rig` with these values of what is not asked for as a rule, free.
 fn spared(rig: &Rig, values: &[(&str, f64)]) -> Rig {
     let mut with = rig.clone();
@@ -176,6 +213,36 @@ mod tests {
         assert!((value("share_2") - 0.3).abs() < 0.02, "{}", value("share_2"));
         let off = (value("phase_2") - 2.0).rem_euclid(std::f64::consts::TAU);
         assert!(off.min(std::f64::consts::TAU - off) < 0.05, "{}", value("phase_2"));
+    }
+
+    #[test]
+    fn an_overtone_larger_than_its_wave_is_the_wave() {
+        // Begun at half of its wavenumber the wave is an overtone, and has one of its own.
+        let data = taken(|q, _| {
+            let wave = |x: f64| 6.0 * x.sin() + 3.0 * x.cos();
+            wave(9.0 * q) + 0.3 * wave(18.0 * q + 2.0)
+        });
+        let walk = walk(&rig(2.0), &data, &[]);
+        let half = with(&rig(2.0), Kind::Cogging, &[0.5, 0.25, 4.5]);
+        let free = identify::Rig { free: vec!["cogging.wavenumber".to_owned()], ..half.clone() };
+        let free = identify::Rig { free: [free.free, half.free.clone()].concat(), ..half };
+        let fitted = walk.board.judged(&free, None).unwrap();
+        let found = walk.overtone(&Candidate { kind: Kind::Cogging, fitted }).unwrap();
+        let left = walk.judged(&found.fitted.blocks).level();
+        let wavenumber = found.fitted.rig.value("cogging.wavenumber").unwrap();
+        assert!(left < 1.2 && (wavenumber - 9.0).abs() < 0.02, "{left}, {wavenumber} rad/m");
+        // The same force, but for the wave that is as good as none.
+        let mut rig = with(&rig(2.0), Kind::Cogging, &[0.02, -0.01, 4.5]);
+        super::binding::set(&mut rig, "cogging.share_2", 30.0);
+        super::binding::set(&mut rig, "cogging.phase_2", 0.7);
+        let rig = super::twice(&rig, "cogging").unwrap();
+        let of = |key: &str| rig.value(&format!("cogging.{key}")).unwrap();
+        for q in [0.1, 0.4] {
+            let (s, c) = (9.0_f64 * q + 0.7).sin_cos();
+            let turned = of("wavenumber") * q;
+            let force = of("sine") * turned.sin() + of("cosine") * turned.cos();
+            assert!((force - 30.0 * (0.02 * s - 0.01 * c)).abs() < 1e-12, "{force} N at {q} m");
+        }
     }
 
     #[test]

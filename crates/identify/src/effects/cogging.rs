@@ -4,7 +4,7 @@ use super::{About, Act, At, Channel, Key, Law, Measure};
 use crate::march::Real;
 
 /// The share of an overtone that is not there [1].
-const NO_OVERTONE: f64 = 1e-30;
+pub(super) const NO_OVERTONE: f64 = 1e-30;
 
 /// A torque that repeats with the angle, as of magnets and teeth.
 pub(super) struct Cogging;
@@ -30,9 +30,14 @@ impl Law for Cogging {
     };
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        let wave = |turned: D| p[0] * turned.sin() + p[1] * turned.cos();
-        let turned = p[2] * at.q;
-        let overtone = p[3].re() > NO_OVERTONE;
-        Act::Force(if overtone { wave(turned) + p[3] * wave(turned * 2.0 + p[4]) } else { wave(turned) })
+        Act::Force(waves([p[0], p[1], p[2], p[3], p[4]], at.q))
     }
+}
+
+/// A wave along the way `q` [m] and its overtone: s sin kq + c cos kq, and the share of that at twice the angle and its phase.
+pub(super) fn waves<D: Real>([sine, cosine, wavenumber, share, phase]: [D; 5], q: D) -> D {
+    let wave = |turned: D| sine * turned.sin() + cosine * turned.cos();
+    let turned = wavenumber * q;
+    let overtone = share.re() > NO_OVERTONE;
+    if overtone { wave(turned) + share * wave(turned * 2.0 + phase) } else { wave(turned) }
 }
