@@ -216,6 +216,25 @@ mod tests {
     }
 
     #[test]
+    fn what_rubs_from_place_to_place_has_an_overtone_too() {
+        let wave = |x: f64| 0.5 * x.sin() + 0.2 * x.cos();
+        let share = move |q: f64| wave(9.0 * q) + 0.4 * wave(18.0 * q + 2.0);
+        let data = taken(|q, v| 5.0 * (1.0 + share(q)) * v.signum());
+        let rig = identify::Rig::parse(&DRY.replace("f_c = 0.5", "f_c = 5.0")).unwrap();
+        let walk = walk(&rig, &data, &[]);
+        let rubs = with(&rig, Kind::PositionFriction, &[0.5, 0.2, 9.0, 1.0]);
+        let fitted = walk.board.judged(&rubs, None).unwrap();
+        let alone = walk.judged(&fitted.blocks).level();
+        let found = walk.overtone(&Candidate { kind: Kind::PositionFriction, fitted }).unwrap();
+        let end = walk.ended(found.fitted).unwrap();
+        let left = walk.judged(&end.blocks).level();
+        let share = end.rig.value("position_friction.share_2").unwrap();
+        // Where it turns between two samples the friction jumps, as the line of the input there does not.
+        assert!(left < 0.1 * alone, "{alone} alone, {left} with its overtone");
+        assert!((share - 0.4).abs() < 0.02, "{share}");
+    }
+
+    #[test]
     fn an_overtone_larger_than_its_wave_is_the_wave() {
         // Begun at half of its wavenumber the wave is an overtone, and has one of its own.
         let data = taken(|q, _| {
