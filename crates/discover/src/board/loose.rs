@@ -103,17 +103,21 @@ fn away(rig: &Rig, name: &str, given: f64) -> bool {
     }
 }
 
+/// Which of those that were held near the values given went far from them in `rig`. Of two springs' pulls one is enough: that
+/// these differ is one effect, and their mean may still be a little off.
+fn far(rig: &Rig, loose: &[(String, f64)]) -> Vec<String> {
+    let away = |(name, given): &&(String, f64)| away(rig, name, *given);
+    let mut all: Vec<String> = loose.iter().filter(away).map(|(name, _)| name.clone()).collect();
+    if PULLS.iter().all(|pull| all.iter().any(|name| name == pull)) {
+        all.retain(|name| name != PULLS[0]);
+    }
+    all
+}
+
 impl Board<'_> {
-    /// The parameters that were held near their given values and went far from them all the same. Of two springs' pulls
-    /// one is enough: that these differ is one effect, and their mean may still be a little off.
+    /// The parameters that were held near their given values and went far from them all the same.
     pub(crate) fn strayed(&self, fitted: &Fitted) -> Vec<String> {
-        let away = |(name, given): &&(String, f64)| away(&fitted.rig, name, *given);
-        let mut all: Vec<String> =
-            self.loose.iter().filter(away).map(|(name, _)| name.clone()).collect();
-        if PULLS.iter().all(|pull| all.iter().any(|name| name == pull)) {
-            all.retain(|name| name != PULLS[0]);
-        }
-        all
+        far(&fitted.rig, &self.loose)
     }
 }
 
@@ -192,6 +196,10 @@ mod tests {
             ["inertia", "radius", "k_1", "k_2", "f_10", "f_20"],
             "what the springs push is seen"
         );
+        // Where both went far the first stays loose, for their mean.
+        let loose = loose(&drum([12.0, 12.0], cells, ""));
+        assert_eq!(super::far(&drum([13.0, 11.0], cells, ""), &loose), ["f_20"]);
+        assert_eq!(super::far(&drum([13.0, 12.0], cells, ""), &loose), ["f_10"]);
         // Up to a fifteenth, each by itself.
         let far = |f_20: f64| away(&drum([12.0, f_20], cells, ""), "f_20", 12.0);
         assert!(!far(12.8) && !far(11.2) && far(13.0) && far(11.0));

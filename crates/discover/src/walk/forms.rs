@@ -194,12 +194,15 @@ mod tests {
     };
     use identify::effects::{Context, Kind};
 
+    /// A force that repeats along the way with 9 rad/m, and its overtone.
+    fn overtone(q: f64, _: f64) -> f64 {
+        let wave = |x: f64| 6.0 * x.sin() + 3.0 * x.cos();
+        wave(9.0 * q) + 0.3 * wave(18.0 * q + 2.0)
+    }
+
     #[test]
     fn an_overtone_is_found_beside_its_wave() {
-        let data = taken(|q, _| {
-            let wave = |x: f64| 6.0 * x.sin() + 3.0 * x.cos();
-            wave(9.0 * q) + 0.3 * wave(18.0 * q + 2.0)
-        });
+        let data = taken(overtone);
         let walk = walk(&rig(2.0), &data, &[]);
         let context = Context { span: 200.0, ..context(&walk) };
         let wave = with(&rig(2.0), Kind::Cogging, &[6.0, 3.0, 9.0]);
@@ -237,15 +240,11 @@ mod tests {
     #[test]
     fn an_overtone_larger_than_its_wave_is_the_wave() {
         // Begun at half of its wavenumber the wave is an overtone, and has one of its own.
-        let data = taken(|q, _| {
-            let wave = |x: f64| 6.0 * x.sin() + 3.0 * x.cos();
-            wave(9.0 * q) + 0.3 * wave(18.0 * q + 2.0)
-        });
+        let data = taken(overtone);
         let walk = walk(&rig(2.0), &data, &[]);
-        let half = with(&rig(2.0), Kind::Cogging, &[0.5, 0.25, 4.5]);
-        let free = identify::Rig { free: vec!["cogging.wavenumber".to_owned()], ..half.clone() };
-        let free = identify::Rig { free: [free.free, half.free.clone()].concat(), ..half };
-        let fitted = walk.board.judged(&free, None).unwrap();
+        let mut half = with(&rig(2.0), Kind::Cogging, &[0.5, 0.25, 4.5]);
+        half.free.push("cogging.wavenumber".to_owned());
+        let fitted = walk.board.judged(&half, None).unwrap();
         let found = walk.overtone(&Candidate { kind: Kind::Cogging, fitted }).unwrap();
         let left = walk.judged(&found.fitted.blocks).level();
         let wavenumber = found.fitted.rig.value("cogging.wavenumber").unwrap();

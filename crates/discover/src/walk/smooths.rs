@@ -5,7 +5,7 @@
 //! is nearer as well where that noise is taken away before.
 
 use super::Walk;
-use crate::{board::Board, model::Candidate};
+use crate::model::Candidate;
 use identify::{
     effects::Kind,
     fit::{Data, FitError},
@@ -30,20 +30,20 @@ impl Walk<'_> {
         if !smooths || self.board.imposed() || self.judged(&candidate.fitted.blocks).level() > FAR {
             return true;
         }
-        let gains = |board: &Board<'_>| {
-            let judged = |fitted| Ok::<_, FitError>(self.judged(&board.again(fitted)?.blocks));
-            Ok::<_, FitError>(judged(&self.best)?.gained(&judged(&candidate.fitted)?))
-        };
         let input = smooth(&self.board.data.input, self.board.data.noise_of_input());
         let data = Data { input, ..self.board.data.clone() };
         let mut board = self.board.clone();
         board.data = &data;
-        let all = gains(&self.board).and_then(|with| Ok([with, gains(&board)?]));
-        all.is_ok_and(|[with, without]| without > STAYS * with)
+        let judged = |fitted| Ok::<_, FitError>(self.judged(&board.again(fitted)?.blocks));
+        let without =
+            judged(&self.best).and_then(|best| Ok(best.gained(&judged(&candidate.fitted)?)));
+        let with = self.judged(&self.best.blocks).gained(&self.judged(&candidate.fitted.blocks));
+        without.is_ok_and(|without| without > STAYS * with)
     }
 }
 
-/// The values, each on the parabola through those beside it where these lie along one but for their `noise`.
+/// The values, as far apart from each other in time, each on the parabola through those beside it where these lie along one
+/// but for their `noise`.
 fn smooth(values: &[f64], noise: f64) -> Vec<f64> {
     let far = BESIDE as f64;
     let n = 2.0 * far + 1.0;
