@@ -103,13 +103,26 @@ fn away(rig: &Rig, name: &str, given: f64) -> bool {
     }
 }
 
+/// Whether two springs' pulls went further apart from those given than two that are off each by itself, though neither alone
+/// need be far off.
+fn apart(rig: &Rig, loose: &[(String, f64)]) -> bool {
+    let went = PULLS.map(|pull| {
+        let given = loose.iter().find(|(name, _)| name == pull).map(|(_, given)| *given);
+        Some((rig.value(pull)? / given?).ln())
+    });
+    let [Some(one), Some(other)] = went else { return false };
+    (one - other).abs() > 2.0_f64.sqrt() * DRAWN * LOOSE
+}
+
 /// Which of those that were held near the values given went far from them in `rig`. Of two springs' pulls one is enough: that
 /// these differ is one effect, and their mean may still be a little off.
 fn far(rig: &Rig, loose: &[(String, f64)]) -> Vec<String> {
     let away = |(name, given): &&(String, f64)| away(rig, name, *given);
     let mut all: Vec<String> = loose.iter().filter(away).map(|(name, _)| name.clone()).collect();
-    if PULLS.iter().all(|pull| all.iter().any(|name| name == pull)) {
-        all.retain(|name| name != PULLS[0]);
+    let pulls = all.iter().filter(|name| PULLS.contains(&name.as_str())).count();
+    if pulls == 2 || pulls == 0 && apart(rig, loose) {
+        all.retain(|name| name != PULLS[0] && name != PULLS[1]);
+        all.push(PULLS[1].to_owned());
     }
     all
 }
@@ -200,6 +213,10 @@ mod tests {
         let loose = loose(&drum([12.0, 12.0], cells, ""));
         assert_eq!(super::far(&drum([13.0, 11.0], cells, ""), &loose), ["f_20"]);
         assert_eq!(super::far(&drum([13.0, 12.0], cells, ""), &loose), ["f_10"]);
+        // Neither alone is far off, but that they differ so much is no chance.
+        assert_eq!(super::far(&drum([12.7, 11.3], cells, ""), &loose), ["f_20"]);
+        assert!(super::far(&drum([12.5, 11.5], cells, ""), &loose).is_empty());
+        assert!(super::far(&drum([12.7, 12.7], cells, ""), &loose).is_empty(), "their mean");
         // Up to a fifteenth, each by itself.
         let far = |f_20: f64| away(&drum([12.0, f_20], cells, ""), "f_20", 12.0);
         assert!(!far(12.8) && !far(11.2) && far(13.0) && far(11.0));
