@@ -50,19 +50,38 @@ pub(crate) fn wrong(minimum: &Minimum<'_>, rig: &Rig) -> Vec<usize> {
     loose
 }
 
-/// How far the damping by a motor's back-EMF, K²/R, may be off because its constants are, each by [`OFF`]: as a root
-/// mean square and at most. It cannot be told from viscous friction.
+/// How far a parameter may be off because of what is given beside it and not free, each by [`OFF`]: as a root mean square
+/// and at most.
+pub(crate) fn besides(rig: &Rig, name: &str) -> [f64; 2] {
+    let parts = match name {
+        "sigma_2" => damping(rig),
+        "k_1" => spring(rig, "k_2"),
+        "k_2" => spring(rig, "k_1"),
+        _ => Vec::new(),
+    };
+    let rms = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
+    [OFF * rms, OFF * parts.iter().sum::<f64>()]
+}
+
+/// The damping by a motor's back-EMF, K²/R, once for each of its constants: it cannot be told from viscous friction.
 ///
 /// Where the inertia is free all forces may have another scale, that of K/R: with K u/R − K² q'/R − σ₂ q' of the drive
 /// and of its model in that ratio, σ₂ makes up for (K/R) times the difference of the two K alone.
-pub(crate) fn drag(rig: &Rig, name: &str) -> [f64; 2] {
-    if name != "sigma_2" {
-        return [0.0; 2];
-    }
+fn damping(rig: &Rig) -> Vec<f64> {
     let damping = identify::fit::binding::model::<f64>(rig, &|_| None).balance.damping;
     let scales = rig.free.iter().any(|free| free == "inertia");
-    let [rms, most] = if scales { [1.0, 1.0] } else { [5.0_f64.sqrt(), 3.0] };
-    [rms * OFF * damping, most * OFF * damping]
+    if scales { vec![damping] } else { vec![damping, 2.0 * damping] }
+}
+
+/// Of one spring of a drum without load cells, what the radius, the drive's constant and the `other` spring make of it: its
+/// motion shows r²(k₁ + k₂)/K_m alone.
+fn spring(rig: &Rig, other: &str) -> Vec<f64> {
+    if rig.kind != "drum" || rig.channels.contains_key("force_1") {
+        return Vec::new();
+    }
+    let value = |key: &str| rig.value(key).unwrap_or(0.0);
+    let both = value("k_1") + value("k_2");
+    vec![2.0 * both, both, value(other)]
 }
 
 /// Where the variable of parameter `i` is at its given value, and the inverse square of how far it may be off; none
@@ -73,7 +92,9 @@ fn near(minimum: &Minimum<'_>, rig: &Rig, i: usize) -> Option<(f64, f64)> {
     let (at, spread) = match free.scale {
         Scale::Linear(size) if free.name.starts_with("f_") => (given / size, OFF * given / size),
         Scale::Linear(_) => return None,
-        Scale::Logarithm(_) => (free.variable(given), OFF.hypot(drag(rig, &free.name)[0] / given)),
+        Scale::Logarithm(_) => {
+            (free.variable(given), OFF.hypot(besides(rig, &free.name)[0] / given))
+        }
         Scale::InverseSquare(_) => {
             let at = free.variable(given);
             (at, 2.0 * OFF * at)
@@ -116,7 +137,7 @@ fn cost(minimum: &Minimum<'_>, nominal: &[Option<(f64, f64)>], loose: &[usize]) 
 
 #[cfg(test)]
 mod tests {
-    use super::{Minimum, drag, wrong};
+    use super::{Minimum, besides, wrong};
     use identify::{
         Hold, Rig,
         fit::{Data, data::Seen, problem::Problem, starts},
@@ -130,14 +151,34 @@ mod tests {
                     sigma_2 = 0.004\n[channels]\ntime = \"t\"\nvoltage = \"u\"\nangle = \"q\"\n";
         let rig = Rig::parse(text).unwrap();
         // 0.2²/2 N·m·s/rad: both constants 2 % off, twice and once.
-        let [rms, most] = drag(&rig, "sigma_2");
+        let [rms, most] = besides(&rig, "sigma_2");
         assert!((rms / (0.02 * 0.02 * 5.0_f64.sqrt()) - 1.0).abs() < 1e-12, "{rms}");
         assert!((most / (0.02 * 0.06) - 1.0).abs() < 1e-12, "{most}");
         // With forces to another scale K alone.
         let free = text.replace("[channels]", "[fit]\nfree = [\"inertia\"]\n[channels]");
-        let [rms, most] = drag(&Rig::parse(&free).unwrap(), "sigma_2");
+        let [rms, most] = besides(&Rig::parse(&free).unwrap(), "sigma_2");
         assert!((rms / (0.02 * 0.02) - 1.0).abs() < 1e-12 && rms.to_bits() == most.to_bits());
-        assert_eq!(drag(&rig, "f_c"), [0.0; 2]);
+        assert_eq!(besides(&rig, "f_c"), [0.0; 2]);
+    }
+
+    #[test]
+    fn one_of_two_springs_is_no_better_known_than_what_both_turn() {
+        let rig = |cells: &str| {
+            let text = format!(
+                "title = \"a\"\n[plant]\nkind = \"drum\"\ninertia = 1e-3\nradius = 0.05\nk_1 = 40.0\nk_2 = 60.0\n\
+                 f_10 = 12.0\nf_20 = 16.0\nmotor_constant = 10.0\ngear_ratio = 50.0\n[friction]\n\
+                 name = \"coulomb\"\nf_c = 1.0\n[fit]\nfree = [\"k_1\"]\n[channels]\ntime = \"t\"\n\
+                 current = \"i\"\nangle = \"q\"\n{cells}"
+            );
+            Rig::parse(&text).unwrap()
+        };
+        // A fiftieth of 100 N/m for the drive, twice that for the radius, a fiftieth of 60 N/m.
+        let alone = rig("");
+        let [rms, most] = besides(&alone, "k_1");
+        let expected = 0.02_f64 * (200.0_f64.powi(2) + 100.0_f64.powi(2) + 60.0_f64.powi(2)).sqrt();
+        assert!((rms - expected).abs() < 1e-12 && (most - 7.2).abs() < 1e-12, "{rms}, {most}");
+        let cells = "force_1 = \"a\"\nforce_2 = \"b\"\n";
+        assert_eq!(besides(&rig(cells), "k_1"), [0.0; 2], "it is seen");
     }
 
     #[test]

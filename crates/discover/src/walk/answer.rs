@@ -11,7 +11,7 @@ use crate::{
     gram::Gram,
     screen,
     verdict::{Discovery, Found, Gap, Limit, Moved, Value, Verdict, name},
-    wrong::{Minimum, drag, wrong},
+    wrong::{Minimum, besides, wrong},
 };
 use identify::{
     Rig,
@@ -276,7 +276,7 @@ fn unit_of(rig: &Rig, channel: &str) -> &'static str {
 pub(super) fn moved(rig: &Rig, found: &Value) -> bool {
     let given = rig.value(&found.name).unwrap_or(f64::NAN);
     let away = (found.value - given).abs();
-    away > 5.0 * found.standard_error && away > WRONG * given.abs() + drag(rig, &found.name)[1]
+    away > 5.0 * found.standard_error && away > WRONG * given.abs() + besides(rig, &found.name)[1]
 }
 
 #[cfg(test)]
