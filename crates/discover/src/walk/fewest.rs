@@ -42,7 +42,9 @@ pub(super) fn fewest(
     let tied = board::tied(rig);
     let mut held = rig.clone();
     held.free.retain(|name| !tied.iter().any(|(tied, _)| tied == name));
-    let second = walked((&held, tied), data, &[], options)?.found;
+    // More than one effect would not be taken.
+    let options = Options { most: 1, ..*options };
+    let second = walked((&held, tied), data, &[], &options)?.found;
     let named = matches!(second.verdict, Verdict::Effect | Verdict::Partial);
     let one = named && second.effects.len() == 1;
     let left = |found: &Discovery| found.chi_squared[2];
