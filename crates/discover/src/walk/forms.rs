@@ -1,6 +1,6 @@
 //! The nearest effect in its other forms, where the one in which it was looked for does not do.
 
-use super::{ABOVE, FIRST, Walk, joints::AS_NEAR};
+use super::{ABOVE, FIRST, Walk, joints::AS_NEAR, loads::dragged};
 use crate::{board::Fitted, model::Candidate};
 use identify::{
     Rig,
@@ -15,12 +15,6 @@ const PHASES: [f64; 4] = [0.8, 2.4, 3.9, 5.5];
 
 /// What repeats along the way and may have an overtone.
 const WAVES: [Kind; 2] = [Kind::Cogging, Kind::PositionFriction];
-
-/// The way in which the friction of a load builds up is begun at these shares of the record's.
-const WAYS: [f64; 3] = [3e-4, 1e-3, 1e-2];
-
-/// Viscous friction of a load is begun at so much of all friction where it is fastest.
-const DRAGS: f64 = 0.01;
 
 /// A wave that leaves no more than so many times what the nearest does is tried with its overtone.
 const BEHIND: f64 = 10.0;
@@ -47,14 +41,6 @@ impl Walk<'_> {
             wave.filter(|wave| level(wave) < BEHIND * least)
         };
         let waves = WAVES.into_iter().filter_map(nearest);
-        let gives = |joint: &Candidate| {
-            let of = |key: &str| format!("{}.{key}", joint.kind.about().name);
-            let with = |way| spared(&joint.fitted.rig, &[(&of("gives"), way * context.span)]);
-            let drags = DRAGS * context.force / context.speed;
-            let drags = [spared(&joint.fitted.rig, &[(&of("drags"), drags)])];
-            let all: Vec<Rig> = WAYS.map(with).into_iter().chain(drags).collect();
-            self.best_of(joint, &all)
-        };
         let joints = all.iter().filter(|c| !c.kind.tried().is_empty());
         let joint = joints.min_by(|a, b| level(a).total_cmp(&level(b)));
         let joint = joint.filter(|joint| level(joint) < NOT_FAR * least);
@@ -62,7 +48,7 @@ impl Walk<'_> {
         let other =
             leading.into_iter().filter_map(|c| self.best_of(c, &forms(c.kind, &c.fitted.rig)));
         let overtones = waves.filter_map(|wave| self.overtone(wave));
-        other.chain(overtones).chain(joint.and_then(gives)).collect()
+        other.chain(overtones).chain(joint.and_then(|joint| self.loaded(joint, context))).collect()
     }
 
     /// A wave with its overtone; where that is the larger, with its own in turn.
@@ -103,19 +89,29 @@ impl Walk<'_> {
         leading
     }
 
-    /// The last model with one of its effects in another form, if it then leaves no more than what has an effect more,
-    /// `found`: what its own form misses is no second effect.
-    pub(super) fn reformed(&self, found: &Fitted) -> Result<Option<Fitted>, FitError> {
+    /// The last model with one of its effects in another form, or with a load that drags, if it then leaves no more than
+    /// what has an effect more, `found`: what its own form misses is no second effect.
+    pub(super) fn reformed(
+        &self,
+        found: &Fitted,
+        context: &Context,
+    ) -> Result<Option<Fitted>, FitError> {
         let here = &self.best;
         let found_here = |kind: &&Kind| {
             let name = kind.about().name;
             !self.given.effects.iter().any(|effect| effect.name == name)
         };
-        let others = LAWS.iter().filter(found_here).flat_map(|kind| forms(*kind, &here.rig));
+        let other = |kind: &Kind| {
+            let drags = dragged(*kind, &here.rig, context);
+            forms(*kind, &here.rig).into_iter().chain(drags)
+        };
+        let others = LAWS.iter().filter(found_here).flat_map(other);
         let rigs: Vec<Rig> = others.collect();
-        let from = Some((here.x.as_slice(), here.pieces.as_slice()));
-        let fitted = rigs.par_iter().filter_map(|rig| self.board.fit(rig, from, &FIRST).ok());
-        let fitted: Vec<Fitted> = fitted.collect();
+        let one = |rig: &Rig| {
+            let x = starts::nominal(&self.board.problem(rig, |_| true).ok()?);
+            self.board.fit(rig, Some((&x, &here.pieces)), &FIRST).ok()
+        };
+        let fitted: Vec<Fitted> = rigs.par_iter().filter_map(one).collect();
         let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
         let Some(nearest) = fitted.into_iter().min_by(|a, b| level(a).total_cmp(&level(b))) else {
             return Ok(None);
@@ -126,7 +122,7 @@ impl Walk<'_> {
     }
 
     /// The nearest of a candidate's variants, refitted, if it lowers what the candidate leaves.
-    fn best_of(&self, candidate: &Candidate, variants: &[Rig]) -> Option<Candidate> {
+    pub(super) fn best_of(&self, candidate: &Candidate, variants: &[Rig]) -> Option<Candidate> {
         let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
         let left = level(candidate);
         if left < ABOVE {
@@ -175,7 +171,7 @@ fn twice(rig: &Rig, name: &str) -> Option<Rig> {
 }
 
 /// `rig` with these values of what is not asked for as a rule, free.
-fn spared(rig: &Rig, values: &[(&str, f64)]) -> Rig {
+pub(super) fn spared(rig: &Rig, values: &[(&str, f64)]) -> Rig {
     let mut with = rig.clone();
     for (name, value) in values {
         binding::set(&mut with, name, *value);
@@ -288,16 +284,17 @@ mod tests {
         let data = taken(|_, v| 0.5 * v.signum() + 30.0 * 0.05 * (v / 0.05).asinh());
         let rig = identify::Rig::parse(DRY).unwrap();
         let mut walk = walk(&rig, &data, &[]);
+        let context = context(&walk);
         let mut carreau = with(&rig, Kind::SublinearDrag, &[30.0, 0.05, 0.9, 1.0]);
         carreau.free.extend(["v_0", "bend"].map(|key| format!("sublinear_drag.{key}")));
         walk.best = walk.board.fit(&carreau, None, &super::FIRST).unwrap();
         let second = walk.best.clone();
-        let eyring = walk.reformed(&second).unwrap().expect("the other form");
+        let eyring = walk.reformed(&second, &context).unwrap().expect("the other form");
         assert_eq!(eyring.rig.value("sublinear_drag.form"), Some(2.0));
         assert!(walk.judged(&eyring.blocks).level() < 1.2);
         // A second effect that leaves less than the other form does stays.
         walk.best = eyring.clone();
-        assert!(walk.reformed(&eyring).unwrap().is_none());
+        assert!(walk.reformed(&eyring, &context).unwrap().is_none());
     }
 
     #[test]

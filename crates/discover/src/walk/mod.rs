@@ -13,6 +13,7 @@ mod grain;
 mod holds;
 mod joints;
 mod left;
+mod loads;
 #[cfg(test)]
 pub(crate) mod made;
 mod named;
@@ -250,11 +251,6 @@ impl Walk<'_> {
         self.board.judged(&rig, None)
     }
 
-    /// Whether no friction is told of.
-    fn bare(&self) -> bool {
-        self.given.friction.name == "none" && self.given.friction.sigma_2 == 0.0
-    }
-
     /// Effect after effect, for as long as there is one more.
     fn rounds(
         &mut self,
@@ -362,7 +358,7 @@ impl Walk<'_> {
         let Some((best, found)) = found(&now, &rated, round).filter(leads) else { return Ok(None) };
         // What takes away the little that a play leaves may be what its own minimum besides the best leaves.
         let anew = self.joint_anew(&now, &best.fitted, context)?;
-        let anew = if anew.is_some() { anew } else { self.reformed(&best.fitted)? };
+        let anew = if anew.is_some() { anew } else { self.reformed(&best.fitted, context)? };
         if let Some(anew) = anew {
             self.best = anew;
             return self.step(context, options, (round, None));

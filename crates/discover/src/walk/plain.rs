@@ -31,6 +31,11 @@ const AT_ONCE: f64 = 0.01;
 const PLAINER: f64 = 2.0;
 
 impl Walk<'_> {
+    /// Whether no friction is told of.
+    pub(super) fn bare(&self) -> bool {
+        self.given.friction.name == "none" && self.given.friction.sigma_2 == 0.0
+    }
+
     /// The plain parts of friction in place of the one effect that was `found` beside the model `before`, or of none, if
     /// they leave less and neither is enough; else what was found.
     pub(super) fn plain(

@@ -1,6 +1,6 @@
 //! `backlash`: The load follows the motor only when a gap is used up.
 
-use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, DRAGS, ENCODER, GIVES, Joint}};
+use super::{About, At, Channel, Key, Law, Measure, family::is_joined, joint::{AT_MOTOR, DRAGS, ENCODER, GIVES, Joint, ZETA}};
 use crate::march::Real;
 
 /// The load follows the motor only when a gap is used up.
@@ -24,6 +24,7 @@ impl Law for Backlash {
             ENCODER,
             GIVES,
             DRAGS,
+            ZETA,
         ],
         probes: |c| {
             let load = [(0.05, 0.01), (0.05, 0.1), (0.25, 0.01), (0.25, 0.1)].map(|own| (own, 1.0));
@@ -46,9 +47,9 @@ impl Law for Backlash {
         &[3e-5, 6e-5, 1.2e-4, 2.5e-4, 5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.6e-2, 3e-2, 6e-2, 0.12];
 
     fn joint<D: Real>(p: &[D], at: &At<D>) -> Option<Joint<D>> {
-        // Teeth that do not ring.
+        // As a rule teeth do not ring: ζ = 1.
         let mass = p[1] * at.mass;
-        let (stiffness, damping) = (mass / (p[3] * p[3]), mass * 2.0 / p[3]);
+        let (stiffness, damping) = (mass / (p[3] * p[3]), mass * p[7] * 2.0 / p[3]);
         Some(Joint { mass, stiffness, damping, half: Some(p[0] * 0.5), rubs: p[2], gives: p[5], drags: p[6] })
     }
 }

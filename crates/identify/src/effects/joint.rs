@@ -25,6 +25,9 @@ pub(super) const GIVES: Key = Key::spare("gives", Measure::Length, 1e-9);
 /// The load's own viscous friction; so little does not show.
 pub(super) const DRAGS: Key = Key::spare("drags", Measure::Damping, 1e-12);
 
+/// The damping ratio ζ of the load on the teeth; below 1 it bounces off them.
+pub(super) const ZETA: Key = Key::spare("zeta", Measure::One, 1.0);
+
 /// The displacement is the motor's.
 pub(super) const AT_MOTOR: f64 = 2.0;
 
