@@ -31,35 +31,37 @@ impl Walk<'_> {
 
 /// A joint with each kind of load that it has not yet.
 fn loads(joint: &Candidate, context: &Context) -> Vec<Rig> {
-    let (name, rig) = (joint.kind.about().name, &joint.fitted.rig);
-    let lacks = |key: &&str| {
-        let known = joint.kind.about().keys.iter().any(|own| own.name == *key);
-        known && !rig.free.contains(&format!("{name}.{key}"))
+    let (kind, rig) = (joint.kind, &joint.fitted.rig);
+    let begun = [
+        ("gives", WAYS.map(|way| way * context.span).to_vec()),
+        ("drags", vec![drag(context)]),
+        ("zeta", ZETAS.to_vec()),
+    ];
+    let with = |(key, values): (&str, Vec<f64>)| {
+        let name = unasked(kind, rig, key);
+        values.into_iter().filter_map(move |value| Some(spared(rig, &[(name.as_ref()?, value)])))
     };
-    let begun = |key: &str| match key {
-        "gives" => WAYS.map(|way| way * context.span).to_vec(),
-        "drags" => vec![drag(context)],
-        _ => ZETAS.to_vec(),
-    };
-    let with = |key: &'static str| {
-        let values = begun(key).into_iter();
-        values.map(move |value| spared(rig, &[(&format!("{name}.{key}"), value)]))
-    };
-    ["gives", "drags", "zeta"].into_iter().filter(lacks).flat_map(with).collect()
+    begun.into_iter().flat_map(with).collect()
+}
+
+/// `rig` with viscous friction of the load, if an effect of this kind that it has holds one that does not drag yet.
+pub(super) fn dragged(kind: Kind, rig: &Rig, context: &Context) -> Option<Rig> {
+    let name = unasked(kind, rig, "drags")?;
+    Some(spared(rig, &[(&name, drag(context))]))
+}
+
+/// The name of a value of an effect's load that `rig` has and that is not free yet.
+fn unasked(kind: Kind, rig: &Rig, key: &str) -> Option<String> {
+    let about = kind.about();
+    let has = rig.effects.iter().any(|effect| effect.name == about.name);
+    let name = format!("{}.{key}", about.name);
+    let known = has && about.keys.iter().any(|own| own.name == key);
+    (known && !rig.free.contains(&name)).then_some(name)
 }
 
 /// Viscous friction with which a load's is begun [N·s/m].
 fn drag(context: &Context) -> f64 {
     DRAGS * context.force / context.speed
-}
-
-/// `rig` with viscous friction of the load, if an effect of this kind that it has holds one that does not drag yet.
-pub(super) fn dragged(kind: Kind, rig: &Rig, context: &Context) -> Option<Rig> {
-    let name = kind.about().name;
-    let has = rig.effects.iter().any(|effect| effect.name == name);
-    let drags = format!("{name}.drags");
-    let lacks = !kind.tried().is_empty() && !rig.free.contains(&drags);
-    (has && lacks).then(|| spared(rig, &[(&drags, drag(context))]))
 }
 
 #[cfg(test)]
