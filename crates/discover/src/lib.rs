@@ -10,6 +10,7 @@
 //! Read first: [`discover`], the whole way; [`Discovery`], its answer.
 
 mod board;
+mod chatter;
 mod confirm;
 mod decide;
 mod floor;
@@ -21,6 +22,7 @@ mod rest;
 mod screen;
 mod verdict;
 mod walk;
+mod wind;
 
 mod wrong;
 

@@ -17,7 +17,7 @@ const SPREAD: f64 = 4.0;
 pub(crate) fn still(data: &Data) -> Data {
     let mut still = rested(data);
     if data.force.is_none() {
-        still.averaged = Some(data.noise_of_input());
+        still.averaged = Some(crate::chatter::noise_of_input(data));
     }
     still
 }

@@ -13,7 +13,7 @@ const STRAYED: f64 = 5.0;
 const DRAWN: f64 = 3.5;
 
 /// The constant force on the side of the friction.
-pub(super) const OFFSET: &str = "offset";
+pub(crate) const OFFSET: &str = "offset";
 
 /// What a unit of the input gives, plant by plant.
 const DRIVES: &[&str] = &["motor_constant", "gain", "torque_constant", "resistance"];

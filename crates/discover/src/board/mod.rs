@@ -6,7 +6,7 @@ mod race;
 mod steps;
 
 pub(crate) use ahead::Ahead;
-pub(crate) use loose::{loose, loosened, strays, tied};
+pub(crate) use loose::{OFFSET, loose, loosened, strays, tied};
 pub(crate) use steps::{FINE, ROUGH};
 
 use identify::{
@@ -24,7 +24,7 @@ use identify::{
         window::Window,
     },
 };
-use loose::{LOOSE, OFFSET, prestress};
+use loose::{LOOSE, prestress};
 use std::sync::Arc;
 
 /// The record on its blocks.
@@ -131,6 +131,19 @@ fn with_values(rig: &Rig, problem: &Problem<'_>, x: &[f64]) -> Rig {
     rig
 }
 
+/// The record in so many windows, each begun where the plant moves.
+fn windows(data: &Data, many: usize) -> Vec<Window> {
+    let n = data.time.len();
+    let bound = |i: usize| match i {
+        0 => 0,
+        i if i == many => n,
+        i => settled(data, i * n / many, n / many / 4),
+    };
+    let bounds: Vec<usize> = (0..=many).map(bound).collect();
+    let window = |ends: &[usize]| Window::new(data, ends[0], ends[1]).remembering(data);
+    bounds.windows(2).map(window).collect()
+}
+
 impl<'a> Board<'a> {
     /// The blocks of `data` with so many windows each, weighed by the noise of its channels.
     pub(crate) fn of(
@@ -142,17 +155,7 @@ impl<'a> Board<'a> {
         let weights = Problem::unfree(rig, data)?.weights;
         let duration = data.time[data.time.len() - 1] - data.time[0];
         let blocks = blocks::blocks(data, Some(BLOCK.min(duration / LEAST)));
-        let n = data.time.len();
-        let many = blocks.len() * per_block;
-        let bounds: Vec<usize> = (0..=many)
-            .map(|i| match i {
-                0 => 0,
-                i if i == many => n,
-                i => settled(data, i * n / many, n / many / 4),
-            })
-            .collect();
-        let window = |ends: &[usize]| Window::new(data, ends[0], ends[1]).remembering(data);
-        let windows = bounds.windows(2).map(window).collect();
+        let windows = windows(data, blocks.len() * per_block);
         let trains = (0..blocks.len()).map(|k| k.count_ones() % 2 == 0).collect();
         Ok(Self {
             data,
@@ -165,6 +168,12 @@ impl<'a> Board<'a> {
             loose,
             tolerance: steps::LONGEST,
         })
+    }
+
+    /// The same with so many windows in each block.
+    pub(crate) fn cut(&self, per_block: usize) -> Self {
+        let windows = windows(self.data, self.trains.len() * per_block);
+        Self { windows, per_block, ..self.clone() }
     }
 
     /// The block of window `w`.

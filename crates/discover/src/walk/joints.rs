@@ -1,12 +1,18 @@
 //! What does not begin smoothly: a load behind a joint.
 
-use super::{ABOVE, DOWN, Walk, candidates::AFRESH, named::NOTHING};
+use super::{
+    ABOVE, DOWN, Walk,
+    candidates::AFRESH,
+    dips::{amounts, dips},
+    named::NOTHING,
+};
 use crate::{
-    board::{Ahead, Fitted},
+    board::{Ahead, Board, Fitted},
     decide::Judged,
     gram,
     model::{self, Candidate},
     screen::Scored,
+    wind::wind,
 };
 use identify::{
     Rig,
@@ -38,6 +44,11 @@ const BEHIND: f64 = 3.0;
 /// nothing it took 0.006 at most, on three in which a gear gives way beside another effect 0.009 at least.
 const GIVES: f64 = 0.008;
 
+/// The windows of a block where that of the short ones lead to nothing, and what a record must show of a joint for them, in
+/// standard deviations of its displacement.
+const SHORTEST: usize = 16;
+const GIVES_WAY: f64 = 5.0;
+
 /// It is begun once more from so many times its amount, where it leaves more than a right model.
 const AROUND: [f64; 4] = [0.8, 0.9, 1.1, 1.25];
 
@@ -63,21 +74,36 @@ impl Walk<'_> {
     /// What does not begin smoothly, and so has no score, refitted from the amounts of each shape that go along best with
     /// a model. Far from the truth the model itself and what it was before its refit are begun with, on short windows: a
     /// load that meets its tooth too early takes another way from there on, and on long windows each amount is a minimum
-    /// of its own.
+    /// of its own; where the record itself shows that there is a joint, on still shorter ones as well.
     pub(super) fn begun(&self, context: &Context) -> Vec<Candidate> {
+        let lost = self.judged(&self.best.blocks).level() > CLEARLY;
+        let mut all = self.begun_on(if lost { &self.short } else { &self.board }, lost, context);
+        let near = self.nearest(&all).is_some_and(|(_, least)| least < ABOVE);
+        if lost && !near && self.gives() {
+            all.extend(self.begun_on(&self.short.cut(SHORTEST), lost, context));
+        }
+        if let Some((_, least)) = self.nearest(&all) {
+            all.retain(|c| self.judged(&c.fitted.blocks).level() < BEHIND * least);
+        }
+        all
+    }
+
+    /// The same on the windows of one board.
+    fn begun_on(&self, board: &Board<'_>, lost: bool, context: &Context) -> Vec<Candidate> {
         let now = self.judged(&self.best.blocks);
-        let level = now.level();
-        let (lost, gross) = (level > CLEARLY, self.points().len() > 1);
+        let gross = self.points().len() > 1;
         let points = if lost { vec![&self.origin, &self.best] } else { self.points() };
-        let (board, heats) = if lost { (&self.short, &LOST) } else { (&self.board, &HEATS) };
+        let heats = if lost { &LOST } else { &HEATS };
         let there = |fitted: &Fitted| {
             if lost { board.judged(&fitted.rig, None) } else { Ok(fitted.clone()) }
         };
+        let shown = self.shown(context);
+        let many = |kind| amounts(kind, shown).len();
         let mut near: Vec<(usize, Ahead)> = Vec::new();
         for (place, point) in points.iter().enumerate() {
             let rigs = self.tried(point, context);
             if let Ok((_, all)) = there(point).and_then(|point| board.ahead(&point, &rigs)) {
-                let (place, all) = if lost { (place, dips(&rigs, &all)) } else { (0, all) };
+                let (place, all) = if lost { (place, dips(&rigs, &all, many)) } else { (0, all) };
                 near.extend(all.into_iter().map(|a| (place, a)));
             }
         }
@@ -88,24 +114,17 @@ impl Walk<'_> {
                 own.take(FIRST).map(|(_, a)| (*kind, a.rig.clone()))
             };
             let own: Vec<(Kind, Rig)> = (0..points.len()).flat_map(own).collect();
-            board.raced(&own, heats, &AFRESH)
+            let both = [own, self.slow(*kind, context)];
+            both.map(|begun| board.raced(&begun, heats, &AFRESH)).into_iter().flatten()
         });
         let alone = there(&self.best).map_or(f64::INFINITY, |best| board.far(&best));
-        let least = match level {
+        let least = match now.level() {
             level if level < CLEARLY => f64::INFINITY,
             _ if gross => alone,
             level => alone - SEEN * level.ln(),
         };
         let raced: Vec<(f64, Kind, Rig)> = raced.filter(|(far, ..)| *far < least).collect();
-        let mut all = if lost && !gross {
-            self.by_short(&raced)
-        } else {
-            self.longer(raced, (&now, context))
-        };
-        if let Some((_, least)) = self.nearest(&all) {
-            all.retain(|c| self.judged(&c.fitted.blocks).level() < BEHIND * least);
-        }
-        all
+        if lost && !gross { self.by_short(&raced) } else { self.longer(raced, (&now, context)) }
     }
 
     /// What came near on short windows, refitted from the given values of what is no effect's, on short windows first: in a
@@ -130,17 +149,32 @@ impl Walk<'_> {
     }
 
     /// The model with each of what does not begin smoothly, in each amount and shape at which it is tried.
-    fn tried(&self, point: &Fitted, context: &Context) -> Vec<(Kind, Rig)> {
+    pub(super) fn tried(&self, point: &Fitted, context: &Context) -> Vec<(Kind, Rig)> {
         let lacking = gram::lacking(&self.board, &self.best.rig, context);
-        let each = lacking.iter().flat_map(|(kind, probes)| {
-            let tried = move |p| kind.tried().iter().map(move |t| (*kind, p, *t));
-            probes.iter().flat_map(tried)
-        });
-        let one = |(kind, probe, tried): (Kind, &Vec<f64>, f64)| {
+        let shown = self.shown(context);
+        let one = |kind: Kind, probe: &[f64], tried: f64| {
             let values = gram::tried(kind, probe, tried, context);
             (kind, shared(model::with(point, &Scored::unscored(kind, values)), kind))
         };
-        each.map(one).collect()
+        let each = |(kind, probes): &(Kind, Vec<Vec<f64>>)| -> Vec<(Kind, Rig)> {
+            let amounts = amounts(*kind, shown);
+            let along = |probe: &Vec<f64>| -> Vec<(Kind, Rig)> {
+                amounts.iter().map(|tried| one(*kind, probe, *tried)).collect()
+            };
+            probes.iter().flat_map(along).collect()
+        };
+        lacking.iter().flat_map(each).collect()
+    }
+
+    /// Whether the record itself shows that motor and load are not one.
+    fn gives(&self) -> bool {
+        let noise = self.board.weights.displacement;
+        wind(self.board.data).is_some_and(|wide| wide > GIVES_WAY * noise)
+    }
+
+    /// How wide a play the record itself shows, of its natural size.
+    fn shown(&self, context: &Context) -> Option<f64> {
+        wind(self.board.data).map(|wide| wide / context.span)
     }
 
     /// What does not begin smoothly once more, if it is the nearest of all and not down at the floor, and its rivals of
@@ -203,25 +237,6 @@ impl Walk<'_> {
     }
 }
 
-/// Of `all` that was tried, in the amounts of each shape one after another, what is nearer than the amounts beside it, in
-/// the order of `all`. The least amount is as good as none.
-fn dips(rigs: &[(Kind, Rig)], all: &[Ahead]) -> Vec<Ahead> {
-    let mut far = vec![f64::INFINITY; rigs.len()];
-    for a in all {
-        far[a.place] = a.far;
-    }
-    let mut dip = vec![false; rigs.len()];
-    let mut from = 0;
-    while let Some((kind, _)) = rigs.get(from) {
-        let end = from + kind.tried().len().max(1);
-        for i in from + 1..end {
-            dip[i] = far[i] < far[i - 1] && (i + 1 == end || far[i] < far[i + 1]);
-        }
-        from = end;
-    }
-    all.iter().filter(|a| dip[a.place]).cloned().collect()
-}
-
 /// A model whose load rubs, with so much less of the motor's own friction: both together rub as it was found, and a search
 /// that begins with more than that hands none of it over.
 fn shared(mut rig: Rig, kind: Kind) -> Rig {
@@ -245,8 +260,8 @@ fn shared(mut rig: Rig, kind: Kind) -> Rig {
 
 #[cfg(test)]
 mod tests {
-    use super::{dips, shared};
-    use crate::{board::Ahead, walk::made};
+    use super::shared;
+    use crate::walk::made;
     use identify::{
         Rig,
         effects::Kind,
@@ -263,25 +278,6 @@ mod tests {
         assert!(!walk.may_begin(1.5, 1), "noise that is not white after all was explained");
         walk.joins = false;
         assert!(!walk.may_begin(8.0, 0));
-    }
-
-    #[test]
-    fn of_each_shape_the_amounts_nearer_than_those_beside_them_are_begun_with() {
-        let kind = Kind::Backlash;
-        let many = kind.tried().len();
-        let rigs = vec![(kind, made::rig(2.0)); 2 * many];
-        // The first shape has dips at its fourth, to which it falls over two amounts, and at its last; the second has one
-        // at its fifth, and perhaps one beside its sixth, which could not be simulated.
-        let mut far: Vec<f64> = (0..2 * many).map(|i| 3.0 + 0.01 * (i % many) as f64).collect();
-        for (place, left) in [(2, 2.4), (3, 2.0), (many - 1, 2.5), (many + 4, 1.0)] {
-            far[place] = left;
-        }
-        let ahead = |place: usize| Ahead { far: far[place], kind, place, rig: made::rig(2.0) };
-        let mut all: Vec<Ahead> = (0..2 * many).filter(|i| *i != many + 5).map(ahead).collect();
-        all.sort_by(|a, b| a.far.total_cmp(&b.far));
-        let places: Vec<usize> = dips(&rigs, &all).iter().map(|a| a.place).collect();
-        assert_eq!(places, [many + 4, 3, many - 1, many + 6]);
-        assert!(dips(&[], &[]).is_empty());
     }
 
     #[test]

@@ -1,6 +1,10 @@
 //! What the last model leaves, and whether that is noise.
 
-use super::{Walk, answer::MORE};
+use super::{
+    Walk,
+    answer::MORE,
+    struck::{STRUCK, middle, run},
+};
 use crate::{board::Fitted, decide::Judged};
 use identify::fit::{problem::Piece, window::Window};
 use nalgebra::{DMatrix, DVector};
@@ -8,14 +12,6 @@ use nalgebra::{DMatrix, DVector};
 /// What is left in one channel may be so much larger than its floor before it is said that more is missing: right models
 /// of the records looked at left 0.6 to 1.2 in each.
 const ALONE: f64 = 1.4;
-
-/// So many neighbouring blocks, so many times as far off as the middle one, are no chance: on the records looked at with
-/// nothing missing three in a row come to 1.9 times at most, in whichever channel.
-const LASTING: usize = 3;
-const STRUCK: f64 = 4.0;
-
-/// The noise of an imposed displacement has moved a force that spreads by so many times the noise of its own sensor.
-const LOST: f64 = 3.0;
 
 /// Noise that is not white hangs together over so few samples, is the same in all blocks but for so much, and no more
 /// than this share of it hangs on how the plant moves. What a wrong model leaves on the records looked at hung together
@@ -59,31 +55,8 @@ impl Walk<'_> {
         if left > MORE && self.only_noise(fitted) { 1.0 } else { left }
     }
 
-    /// Whether something acts for a while only: some neighbouring blocks are far worse than the middle one. A single
-    /// one may have gone astray, and so may all through which an imposed motion rests.
-    pub(super) fn struck(&self) -> bool {
-        let adrift = self.adrift();
-        let told = |channel: usize| {
-            let blocks = self.channel(&self.best, channel).into_iter().zip(&adrift);
-            blocks.map(|(left, adrift)| if *adrift { 0.0 } else { left }).collect::<Vec<f64>>()
-        };
-        (0..channels(&self.best)).any(|c| run(&told(c)) > STRUCK)
-    }
-
-    /// In which blocks the force of an imposed motion is what the noise of the displacement made of it: where it rests the
-    /// contact keeps what it was left with, so that all samples of the rest are off by the same.
-    fn adrift(&self) -> Vec<bool> {
-        let (board, mut adrift) = (&self.board, vec![false; self.board.trains.len()]);
-        for (w, window) in board.windows.iter().enumerate().filter(|_| board.imposed()) {
-            let spread = board.spread.get(window.first..window.end).unwrap_or_default();
-            let many = spread.iter().filter(|own| **own > LOST * board.weights.force).count();
-            adrift[board.block(w)] |= 2 * many > window.len();
-        }
-        adrift
-    }
-
     /// The mean squared residual of every block in one channel [1].
-    fn channel(&self, fitted: &Fitted, channel: usize) -> Vec<f64> {
+    pub(super) fn channel(&self, fitted: &Fitted, channel: usize) -> Vec<f64> {
         let samples = self.board.samples();
         fitted.blocks.iter().zip(samples).map(|(block, n)| block[channel] / n).collect()
     }
@@ -214,7 +187,7 @@ pub(super) fn lasts<'a>(all: impl Iterator<Item = &'a [f64]>, white: f64) -> f64
 }
 
 /// How many channels a model has, the load cells among them.
-fn channels(fitted: &Fitted) -> usize {
+pub(super) fn channels(fitted: &Fitted) -> usize {
     fitted.blocks.first().map_or(0, Vec::len)
 }
 
@@ -230,23 +203,9 @@ fn features([q, v, u]: [f64; 3], before: [f64; 3]) -> Vec<f64> {
     own.into_iter().chain(across).chain(dry).chain(past).collect()
 }
 
-/// The middle one of some numbers.
-fn middle(all: &[f64]) -> Option<f64> {
-    let mut sorted = all.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied()
-}
-
-/// So many times the middle of the blocks all of some neighbouring ones are far off at least [1].
-fn run(blocks: &[f64]) -> f64 {
-    let Some(middle) = middle(blocks) else { return 0.0 };
-    let least = |run: &[f64]| run.iter().copied().fold(f64::INFINITY, f64::min);
-    blocks.windows(LASTING).map(least).fold(0.0, f64::max) / middle.max(1.0)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{super::made, run};
+    use super::super::made;
     use identify::{effects::Kind, fit::Data};
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
@@ -346,39 +305,5 @@ mod tests {
             *block = [1.3, 1.0, 1.0, 1.0].map(|level| level * n).to_vec();
         }
         assert!(walk.leaves(&fitted) < 1.2, "{}", walk.leaves(&fitted));
-    }
-
-    #[test]
-    fn a_rest_in_which_an_imposed_motion_left_a_force_strikes_nothing() {
-        let data = made::slide(0.0);
-        let mut walk = made::walk(&made::slides(1.5), &data, &[]);
-        for block in &mut walk.best.blocks[4..7] {
-            block[0] *= 30.0;
-        }
-        assert!(walk.struck());
-        // A force that spreads as far there as the noise of the displacement moves it.
-        let force = walk.board.weights.force;
-        walk.board.spread.resize(data.time.len(), 0.0);
-        for window in 4..7 {
-            let own = &walk.board.windows[window];
-            walk.board.spread[own.first..own.end].fill(30.0 * force);
-        }
-        assert!(!walk.struck());
-        // Without two of them the third alone is one that went astray.
-        let own = &walk.board.windows[6];
-        walk.board.spread[own.first..own.end].fill(0.1 * force);
-        assert!(!walk.struck());
-    }
-
-    #[test]
-    fn what_lasts_for_three_blocks_is_no_block_gone_astray() {
-        let with = |far: &[usize]| -> Vec<f64> {
-            (0..40).map(|k| if far.contains(&k) { 30.0 } else { 0.9 }).collect()
-        };
-        assert!((run(&with(&[7, 8, 9])) - 30.0).abs() < 1e-12);
-        assert!(run(&with(&[7, 8, 10, 20])) < 1.0, "never three in a row");
-        // Where half of the blocks are far off the middle one is, too.
-        assert!((run(&with(&(0..30).collect::<Vec<usize>>())) - 1.0).abs() < 1e-12);
-        assert!(run(&[]) < 1.0);
     }
 }

@@ -5,6 +5,7 @@ use crate::model::Candidate;
 use identify::{
     Rig,
     effects::{Context, Kind},
+    fit::binding,
 };
 
 /// The way in which the friction of a load builds up is begun at these shares of the record's.
@@ -12,6 +13,13 @@ const WAYS: [f64; 3] = [3e-4, 1e-3, 1e-2];
 
 /// Viscous friction of a load is begun at so much of all friction where it is fastest.
 const DRAGS: f64 = 0.01;
+
+/// A load that drags is begun behind plays of this range, of the way the plant goes.
+const SLOW: [f64; 2] = [2e-4, 5e-3];
+
+/// That of a load that is hidden behind a play, where its dry friction is less than so much of all.
+const SLOWED: f64 = 0.1;
+const LITTLE: f64 = 0.05;
 
 /// Teeth are begun with these damping ratios, where they are not what they are as a rule.
 const ZETAS: [f64; 2] = [0.15, 0.5];
@@ -26,6 +34,20 @@ impl Walk<'_> {
             found = next;
         }
         Some(found)
+    }
+
+    /// The model with a load that drags, hidden behind plays that are not so small that a little of anything else does as
+    /// well: what such a load does is not seen before the motor's own friction gives way to it.
+    pub(super) fn slow(&self, kind: Kind, context: &Context) -> Vec<(Kind, Rig)> {
+        let all = self.tried(&self.best, context).into_iter().filter(|(own, _)| *own == kind);
+        let wide = |(kind, rig): &(Kind, Rig)| {
+            let about = kind.about();
+            let amount = rig.value(&format!("{}.{}", about.name, about.keys[0].name));
+            let share = amount.unwrap_or(0.0) / context.size(about.keys[0].measure);
+            (SLOW[0]..SLOW[1]).contains(&share)
+        };
+        let dragging = |(kind, rig): (Kind, Rig)| Some((kind, slowed(kind, &rig, context)?));
+        all.filter(wide).filter_map(dragging).collect()
     }
 }
 
@@ -50,6 +72,23 @@ pub(super) fn dragged(kind: Kind, rig: &Rig, context: &Context) -> Option<Rig> {
     Some(spared(rig, &[(&name, drag(context))]))
 }
 
+/// `rig` with a play behind which the load is hidden and drags: nothing but its friction brings a load that is not seen to
+/// rest on its way through the play.
+fn slowed(kind: Kind, rig: &Rig, context: &Context) -> Option<Rig> {
+    let name = kind.about().name;
+    let value = |key: &str| rig.value(&format!("{name}.{key}")).unwrap_or(0.0);
+    let hidden = kind == Kind::Backlash && value("encoder") > 1.5;
+    let rubs = value("rubs") > LITTLE * context.force;
+    let drags = unasked(kind, rig, "drags").filter(|_| hidden && !rubs)?;
+    let drag = SLOWED * context.force / context.speed;
+    let mut slowed = spared(rig, &[(&drags, drag)]);
+    // Both together drag as it was found.
+    if let Some(left) = rig.value("sigma_2").map(|both| both - drag).filter(|left| *left > 0.0) {
+        binding::set(&mut slowed, "sigma_2", left);
+    }
+    Some(slowed)
+}
+
 /// The name of a value of an effect's load that `rig` has and that is not free yet.
 fn unasked(kind: Kind, rig: &Rig, key: &str) -> Option<String> {
     let about = kind.about();
@@ -66,14 +105,14 @@ fn drag(context: &Context) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{dragged, loads};
+    use super::{SLOW, dragged, loads};
     use crate::{
         model::Candidate,
         walk::made::{context, rig, walk, with},
     };
     use identify::{
         Hold,
-        effects::Kind,
+        effects::{Context, Kind},
         fit::{Data, Seen},
     };
     use nalgebra::Complex;
@@ -145,5 +184,24 @@ mod tests {
         assert_eq!(many(Kind::Backlash, &play, &["zeta"]), 4);
         assert_eq!(many(Kind::Backlash, &play, &["zeta", "gives", "drags"]), 0);
         assert_eq!(many(Kind::Compliance, &COMPLIANCE, &[]), 4);
+    }
+
+    #[test]
+    fn behind_a_play_a_hidden_load_is_begun_dragging() {
+        let data = crate::walk::made::data();
+        let walk = walk(&rig(2.0), &data, &[]);
+        let seen = context(&walk);
+        assert!(walk.slow(Kind::Backlash, &seen).is_empty(), "a load that is seen");
+        // A drag that is a share of the motor's own.
+        let hidden = Context { hidden: true, force: 2.0 * seen.speed, ..seen };
+        let all = walk.slow(Kind::Backlash, &hidden);
+        assert!(!all.is_empty() && walk.slow(Kind::Compliance, &hidden).is_empty());
+        for (_, rig) in &all {
+            let value = |name: &str| rig.value(name).unwrap();
+            assert!((value("backlash.drags") + value("sigma_2") - 0.5).abs() < 1e-12);
+            assert!(rig.free.iter().any(|free| free == "backlash.drags"));
+            let share = value("backlash.gap") / hidden.span;
+            assert!(value("backlash.encoder") > 1.5 && (SLOW[0]..SLOW[1]).contains(&share));
+        }
     }
 }

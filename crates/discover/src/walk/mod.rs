@@ -5,10 +5,12 @@ mod anew;
 mod answer;
 mod beam;
 mod candidates;
+mod dips;
 mod drifts;
 mod exchange;
 mod fewest;
 mod forms;
+mod given;
 mod grain;
 mod holds;
 mod joints;
@@ -25,6 +27,7 @@ mod simpler;
 mod smooths;
 mod springs;
 mod strayed;
+mod struck;
 mod tone;
 mod unmoved;
 mod waves;
@@ -170,6 +173,7 @@ fn walked(
     walk.looked_over(&mut effects, &context, options)?;
     let refit = walk.polish(&refit, options.seed)?;
     walk.drop_unsure((rig, &refit), &mut effects, &context)?;
+    let refit = walk.wrong_given(rig, &mut effects)?.unwrap_or(refit);
     let before = walk.board.judged(&fixed, None)?;
     let other = if walk.turned.is_some() { walk.turned } else { walk.may_be_other()? };
     let found = walk.answer((rig, &before, &refit), (effects, &start), &context)?;
@@ -304,7 +308,7 @@ impl Walk<'_> {
         }
         let others = std::mem::take(&mut self.others);
         loop {
-            self.drop_each(effects)?;
+            self.drop_each(effects, context)?;
             self.exchange_each(effects, context, options)?;
             if !self.widened(effects, context, options)? {
                 break;

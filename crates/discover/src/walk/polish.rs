@@ -204,9 +204,23 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
+    /// The names of the effects, the last one first, but before it what is not plausible: of two that do alike that goes.
+    fn last_first(&self, effects: &[Found], context: &Context) -> Vec<&'static str> {
+        let mut names: Vec<&str> = effects.iter().rev().map(|effect| effect.name).collect();
+        names.sort_by_key(|name| self.plausible(name, context));
+        names
+    }
+
     /// Takes away again every effect without which a refit is as good: it had only shown the way.
-    pub(super) fn drop_each(&mut self, effects: &mut Vec<Found>) -> Result<(), FitError> {
-        for place in (0..effects.len()).rev() {
+    pub(super) fn drop_each(
+        &mut self,
+        effects: &mut Vec<Found>,
+        context: &Context,
+    ) -> Result<(), FitError> {
+        for name in self.last_first(effects, context) {
+            let Some(place) = effects.iter().position(|effect| effect.name == name) else {
+                continue;
+            };
             let mut without = self.without(&self.best, effects[place].name)?;
             let now = self.judged(&self.best.blocks);
             let needless = |without: &Fitted| {
@@ -317,6 +331,20 @@ mod tests {
             let mut effects = vec![found("current_bias"), found("quadratic_drag")];
             walk.drop_unsure((&rig(2.0), &refit), &mut effects, &context).unwrap();
             assert_eq!((effects.len(), effects[0].name), (left, "current_bias"), "{drag}");
+        }
+    }
+
+    #[test]
+    fn of_several_that_is_taken_away_first_which_is_not_plausible() {
+        let data = data();
+        let mut walk = walk(&rig(2.0), &data, &[]);
+        let context = context(&walk);
+        let bias = with(&rig(2.0), Kind::CurrentBias, &[BIAS]);
+        let effects = [found("quadratic_drag"), found("current_bias")];
+        for (drag, first) in [(0.05, "current_bias"), (-0.05, "quadratic_drag")] {
+            let both = with(&bias, Kind::QuadraticDrag, &[drag]);
+            walk.best = walk.board.judged(&both, None).unwrap();
+            assert_eq!(walk.last_first(&effects, &context)[0], first, "{drag}");
         }
     }
 

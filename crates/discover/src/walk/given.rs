@@ -1,0 +1,163 @@
+//! A given value that is not free, and wrong by itself.
+
+use super::{
+    FIRST, Walk,
+    answer::{MORE, WRONG, surely_worse},
+    exchange::kind_of,
+    named::numbers,
+};
+use crate::{
+    board::{Board, Fitted, OFFSET},
+    verdict::Found,
+};
+use identify::{Rig, fit::FitError};
+use rayon::prelude::*;
+use std::mem;
+
+/// An effect of so many numbers is as simple as a wrong value.
+const SIMPLE: usize = 1;
+
+impl Walk<'_> {
+    /// The model without effects in which one given value that is not free is another one, if it is surely no worse than the
+    /// last model and that has more numbers, or leaves more than noise. It takes that one's place, its effects go.
+    ///
+    /// Such a value looks like whatever acts as it does: a level of friction that is too high like one that wears off within
+    /// a moment.
+    pub(super) fn wrong_given(
+        &mut self,
+        rig: &Rig,
+        effects: &mut Vec<Found>,
+    ) -> Result<Option<Fitted>, FitError> {
+        let many: usize = effects.iter().filter_map(|e| kind_of(e.name)).map(numbers).sum();
+        if many <= SIMPLE && self.leaves(&self.best) < MORE {
+            return Ok(None);
+        }
+        let one = |name: &String| {
+            let loose = self.besides(name);
+            let board = Board { loose: loose.clone(), ..self.board.clone() };
+            let freed = Rig { free: all_free(rig, &loose, name), ..rig.clone() };
+            let short = Board { loose, ..self.short.clone() };
+            let short = Some(short).filter(|short| !short.imposed());
+            let fitted = board.refit(&freed, short.as_ref(), &FIRST).ok()?;
+            let alone = board.strayed(&fitted).is_empty() && is_far(&fitted.rig, rig, name);
+            alone.then(|| (name.clone(), fitted))
+        };
+        let names = told(rig, &self.besides(""));
+        let all: Vec<(String, Fitted)> = names.par_iter().filter_map(one).collect();
+        let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
+        let nearest = all.into_iter().min_by(|a, b| level(&a.1).total_cmp(&level(&b.1)));
+        let Some((name, fitted)) = nearest else { return Ok(None) };
+        let loose = self.besides(&name);
+        let before = mem::replace(&mut self.board.loose, loose);
+        let fitted = self.ended(fitted)?;
+        let worse = surely_worse(&self.judged(&fitted.blocks), &self.judged(&self.best.blocks));
+        let alone = self.board.strayed(&fitted).is_empty() && is_far(&fitted.rig, rig, &name);
+        if worse || !alone || self.leaves(&fitted) > MORE {
+            self.board.loose = before;
+            return Ok(None);
+        }
+        self.short.loose.clone_from(&self.board.loose);
+        self.strayed.clear();
+        effects.clear();
+        self.best = fitted.clone();
+        Ok(Some(fitted))
+    }
+
+    /// What is a little loose where the value of this name is free: all that may be, but for that.
+    fn besides(&self, name: &str) -> Vec<(String, f64)> {
+        let all = self.board.loose.iter().chain(&self.strayed);
+        all.filter(|(own, _)| own != name).cloned().collect()
+    }
+}
+
+/// Whether a value is further from the given one than nominal values are.
+fn is_far(found: &Rig, given: &Rig, name: &str) -> bool {
+    let [found, given] = [found, given].map(|rig| rig.value(name).unwrap_or(f64::NAN));
+    (found / given).ln().abs() > WRONG
+}
+
+/// What is given, positive and not free but for being `loose`. A stiction that is the sliding friction is none.
+fn told(rig: &Rig, loose: &[(String, f64)]) -> Vec<String> {
+    let stiction = rig.value("f_s") != rig.value("f_c");
+    let own = |name: &String| {
+        let stribeck = name == "f_s" || name == "v_s";
+        let given = rig.value(name).is_some_and(|value| value > 0.0);
+        let held = !rig.free.contains(name) || loose.iter().any(|(own, _)| own == name);
+        given && held && name != OFFSET && (stiction || !stribeck)
+    };
+    rig.parameters().into_iter().filter(own).filter(|name| !name.contains('.')).collect()
+}
+
+/// The names that are free in `rig` or `loose`, and this one.
+fn all_free(rig: &Rig, loose: &[(String, f64)], name: &str) -> Vec<String> {
+    let mut free = rig.free.clone();
+    let loose = loose.iter().map(|(own, _)| own.clone());
+    for own in loose.chain([name.to_owned()]) {
+        if !free.contains(&own) {
+            free.push(own);
+        }
+    }
+    free
+}
+
+#[cfg(test)]
+mod tests {
+    use super::told;
+    use crate::{
+        verdict::Found,
+        walk::made::{found, rig, taken, walk},
+    };
+    use identify::{Rig, fit::binding};
+
+    /// The model with this much viscous friction, and no free value but the mass.
+    fn given(sigma_2: f64) -> Rig {
+        let mut rig = Rig { free: vec!["mass".to_owned()], ..rig(2.0) };
+        binding::set(&mut rig, "sigma_2", sigma_2);
+        rig
+    }
+
+    /// What is found wrong beside these effects where so much was given and the last model has that much, of 0.5 N·s/m.
+    fn wrong((given, last): (&Rig, &Rig), mut effects: Vec<Found>) -> (Option<f64>, usize) {
+        let data = taken(|_, _| 0.0);
+        let mut walk = walk(given, &data, &[]);
+        walk.best = walk.board.judged(last, None).unwrap();
+        let refit = walk.wrong_given(given, &mut effects).unwrap();
+        let same = |own: &Rig| own.value("sigma_2") == walk.best.rig.value("sigma_2");
+        assert!(refit.as_ref().is_none_or(|refit| same(&refit.rig)));
+        let value = |refit: crate::board::Fitted| refit.rig.value("sigma_2");
+        (refit.and_then(value), effects.len())
+    }
+
+    #[test]
+    fn a_given_value_that_is_not_free_is_found_wrong() {
+        let off = given(0.8);
+        let (value, _) = wrong((&off, &off), Vec::new());
+        assert!((value.expect("a value") - 0.5).abs() < 0.01, "{value:?}");
+        let right = given(0.5);
+        assert_eq!(wrong((&right, &right), Vec::new()).0, None, "nothing is missing");
+        let near = given(0.53);
+        assert_eq!(
+            wrong((&near, &near), Vec::new()).0,
+            None,
+            "no further off than given values are"
+        );
+    }
+
+    #[test]
+    fn it_takes_the_place_of_what_has_more_numbers_and_is_no_nearer() {
+        let (off, last) = (given(0.8), given(0.5));
+        let (value, effects) = wrong((&off, &last), vec![found("maxwell_slip")]);
+        assert!(value.is_some() && effects == 0);
+        let (value, effects) = wrong((&off, &last), vec![found("current_bias")]);
+        assert!(value.is_none() && effects == 1);
+    }
+
+    #[test]
+    fn what_is_told_is_given_and_not_free() {
+        let names = told(&given(0.5), &[]);
+        assert_eq!(names, ["stiffness", "sigma_2"]);
+        let loose = [("mass".to_owned(), 2.0)];
+        assert_eq!(told(&given(0.5), &loose).len(), 3, "what is only loose is not free");
+        assert_eq!(told(&given(0.0), &[]), ["stiffness"]);
+    }
+}
