@@ -43,40 +43,32 @@ pub(crate) fn noise_of_input(data: &Data) -> f64 {
 
 /// `input` less what goes along with the last samples of `seen`.
 fn beside(input: &[f64], seen: &[&[f64]]) -> Option<Vec<f64>> {
-    let rough: Vec<f64> = differences(input);
+    let rough = differences(input);
     let others: Vec<Vec<f64>> = seen.iter().map(|values| differences(values)).collect();
-    let lagged = |all: &[&[f64]], i: usize| -> Vec<f64> {
-        all.iter()
-            .flat_map(|values| (0..LAGS).map(|lag| values[i - lag]).collect::<Vec<_>>())
-            .collect()
-    };
     let others: Vec<&[f64]> = others.iter().map(Vec::as_slice).collect();
-    let mut rows: Vec<usize> = (LAGS..rough.len()).collect();
-    let mut along = DVector::zeros(LAGS * seen.len());
+    let n = LAGS * seen.len();
+    let mut along = DVector::zeros(n);
     for _ in 0..FITS {
-        let left = |i: usize| rough[i] - DVector::from_vec(lagged(&others, i)).dot(&along);
-        let mut sizes: Vec<f64> = (LAGS..rough.len()).map(|i| left(i).abs()).collect();
+        let left = |i: usize| (rough[i] - lagged(&others, i).dot(&along)).abs();
+        let mut sizes: Vec<f64> = (LAGS..rough.len()).map(left).collect();
         let middle = sizes.len() / 2;
         let typical = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
-        rows.retain(|_| true);
-        let kept: Vec<usize> =
-            (LAGS..rough.len()).filter(|i| left(*i).abs() <= CORNER * typical).collect();
-        rows = if typical > 0.0 { kept } else { rows };
-        let (mut normal, mut right) =
-            (DMatrix::zeros(along.len(), along.len()), DVector::zeros(along.len()));
-        for i in &rows {
-            let row = DVector::from_vec(lagged(&others, *i));
-            normal += &row * row.transpose();
-            right += row * rough[*i];
+        let (mut normal, mut right) = (DMatrix::zeros(n, n), DVector::zeros(n));
+        for i in (LAGS..rough.len()).filter(|i| left(*i) <= CORNER * typical) {
+            let row = lagged(&others, i);
+            normal.ger(1.0, &row, &row, 1.0);
+            right.axpy(rough[i], &row, 1.0);
         }
-        let size = normal.diagonal().max();
-        for i in 0..along.len() {
-            normal[(i, i)] += 1e-12 * size;
-        }
-        along = normal.cholesky()?.solve(&right);
+        let ridge = 1e-12 * normal.diagonal().max();
+        along = (normal + DMatrix::identity(n, n) * ridge).cholesky()?.solve(&right);
     }
-    let row = |i: usize| DVector::from_vec(lagged(seen, i)).dot(&along);
-    Some((LAGS..input.len()).map(|i| input[i] - row(i)).collect())
+    Some((LAGS..input.len()).map(|i| input[i] - lagged(seen, i).dot(&along)).collect())
+}
+
+/// The last samples of each channel up to the one at `i`.
+fn lagged(channels: &[&[f64]], i: usize) -> DVector<f64> {
+    let last = |values: &&[f64]| (0..LAGS).map(|lag| values[i - lag]).collect::<Vec<f64>>();
+    DVector::from_vec(channels.iter().flat_map(last).collect())
 }
 
 fn differences(values: &[f64]) -> Vec<f64> {

@@ -42,7 +42,7 @@ impl Walk<'_> {
             let alone = board.strayed(&fitted).is_empty() && is_far(&fitted.rig, rig, name);
             alone.then(|| (name.clone(), fitted))
         };
-        let names = told(rig, &self.besides(""));
+        let names = told(rig, &self.off());
         let all: Vec<(String, Fitted)> = names.par_iter().filter_map(one).collect();
         let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
         let nearest = all.into_iter().min_by(|a, b| level(&a.1).total_cmp(&level(&b.1)));
@@ -65,8 +65,14 @@ impl Walk<'_> {
 
     /// What is a little loose where the value of this name is free: all that may be, but for that.
     fn besides(&self, name: &str) -> Vec<(String, f64)> {
-        let all = self.board.loose.iter().chain(&self.strayed);
-        all.filter(|(own, _)| own != name).cloned().collect()
+        let mut all = self.off();
+        all.retain(|(own, _)| own != name);
+        all
+    }
+
+    /// What is given and not free but may be off: what is a little loose, and what was until it strayed.
+    fn off(&self) -> Vec<(String, f64)> {
+        self.board.loose.iter().chain(&self.strayed).cloned().collect()
     }
 }
 
