@@ -15,6 +15,7 @@ mod confirm;
 mod decide;
 mod floor;
 mod gram;
+mod input;
 mod maps;
 mod model;
 mod nudge;

@@ -13,11 +13,18 @@ const MOVING: f64 = 4.0;
 /// Values that spread by so many standard errors of a variance more than their noise lets them are not at rest.
 const SPREAD: f64 = 4.0;
 
-/// `data` as its motion is simulated: an imposed one rests where it does, and an input is held where it is.
+/// `data` as its motion is simulated: an imposed one rests where it does, and an input is held where it is and laid smooth
+/// elsewhere.
 pub(crate) fn still(data: &Data) -> Data {
     let mut still = rested(data);
     if data.force.is_none() {
-        still.averaged = Some(crate::chatter::noise_of_input(data));
+        let noise = crate::chatter::noise_of_input(data);
+        // A command that answers its encoder drives the plant as it is.
+        let answers = !data.reference.is_empty() || noise < data.noise_of_input();
+        if !answers {
+            still.input = crate::input::smoothed(&still.input, noise);
+        }
+        still.averaged = Some(noise);
     }
     still
 }
@@ -80,7 +87,7 @@ fn moves(run: &[f64], noise: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{moves, still};
+    use super::{Data, moves, rested, still};
     use crate::walk::made;
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
@@ -110,8 +117,14 @@ mod tests {
         seen.values[rests.clone()].fill(there);
         let shown = data.noise_of_input();
         let still = still(&data);
-        assert_eq!(still.input[moves.clone()], data.input[moves]);
+        assert_eq!(rested(&data).input[moves.clone()], data.input[moves.clone()]);
+        let off = |u: &[f64]| u.iter().map(|u| (u - 2.0).powi(2)).sum::<f64>();
+        let [less, more] = [&still, &data].map(|data| off(&data.input[moves.clone()]));
+        assert!(less < 0.5 * more, "what moves is laid smooth");
         let held = &still.input[rests];
+        let answers =
+            super::still(&Data { reference: vec![0.0; data.input.len()], ..data.clone() });
+        assert_eq!(answers.input, rested(&data).input, "a controller's command is as it is");
         let near = held.iter().filter(|u| (*u - 2.0).abs() < 4e-3).count();
         assert!(near > 180, "{near} of 200");
         // What is known of its noise is what it was.

@@ -1,6 +1,7 @@
 //! The blocks of a record, which of them are fitted and which judge.
 
 mod ahead;
+mod evidence;
 mod loose;
 mod race;
 mod steps;

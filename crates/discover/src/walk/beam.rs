@@ -86,7 +86,7 @@ impl Walk<'_> {
         let alone = self.without(&self.best, name(first.kind))?;
         let [alone, both] = [&alone, &self.best].map(|f| self.judged(&f.blocks));
         let own = part(first.kind, [&alone, &both], alone.against(&both));
-        Ok(shows(&alone, &both, 1).then(|| vec![own, second]))
+        Ok(shows(&alone, &both, 1, 0.0).then(|| vec![own, second]))
     }
 
     /// The last model is this one where it ends.

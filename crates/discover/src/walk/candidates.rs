@@ -26,6 +26,10 @@ const GAIN: f64 = 12.0;
 /// squares that falls there by as much as on the others says the same.
 const FALLS: f64 = 0.01;
 
+/// Near the floor what gains so much is worth a refit.
+const TELLS: f64 = 36.0;
+const CLOSE: f64 = 2.0;
+
 /// So many of the best are worth a refit whatever the judging blocks say, if they gain ten standard errors.
 const FIRST_OF_ALL: usize = 2;
 const SURELY: f64 = 100.0;
@@ -92,7 +96,7 @@ impl Walk<'_> {
                 short.extend(self.turned(&gram, &short));
             }
             if round > 0 && now.level() < NOTHING {
-                short.truncate(FEW);
+                short.truncate(FEW.max(short.iter().take_while(|s| s.gain > TELLS).count().min(4)));
             }
             // Far from the truth the derivatives say little of where the other parameters are.
             if far && place == 0 && !self.board.imposed() {
@@ -152,8 +156,11 @@ impl Walk<'_> {
     pub(super) fn rated(&self, candidates: Vec<Candidate>, context: &Context) -> Vec<Rated> {
         let one = |candidate: Candidate| {
             let judged = self.judged(&candidate.fitted.blocks);
+            // What begins where it was tried fits what a break-away leaves wherever it can.
+            let smooth = candidate.kind.tried().is_empty();
+            let evidence = if smooth { self.evidence(&self.best, &candidate.fitted) } else { 0.0 };
             let plausible = self.fits(&candidate, context) && self.sharper(&candidate);
-            Rated { candidate, judged, plausible }
+            Rated { candidate, judged, evidence, plausible }
         };
         let mut rated: Vec<Rated> = candidates.into_iter().map(one).collect();
         rated.sort_by(|a, b| a.judged.level().total_cmp(&b.judged.level()));
@@ -232,7 +239,8 @@ impl Walk<'_> {
             // Where a straight line leads too far only a refit can tell.
             let first = scores.iter().filter(smooth).take(FIRST_OF_ALL);
             let surely: Vec<Kind> = first.filter(|s| s.gain > SURELY).map(|s| s.kind).collect();
-            let worth = |s: &&Scored| gains(s) || surely.contains(&s.kind);
+            let tells = |s: &&Scored| there.level() < CLOSE && s.gain > TELLS;
+            let worth = |s: &&Scored| gains(s) || surely.contains(&s.kind) || tells(s);
             scores.iter().filter(smooth).filter(worth).cloned().collect()
         };
         let mut all = gains(there);
@@ -315,5 +323,23 @@ mod tests {
         };
         // e times as far are two of four more than twice.
         assert_eq!(near(0.0, BIAS), 2);
+    }
+
+    #[test]
+    fn what_is_missing_is_told_by_what_it_changes_and_what_is_not_is_not() {
+        let data = data();
+        let told = |kind: Kind, amount: f64| {
+            let walk = walk(&with(&rig(2.0), Kind::CurrentBias, &[0.9 * BIAS]), &data, &[]);
+            let from = if kind == Kind::CurrentBias { &rig(2.0) } else { &walk.best.rig };
+            let other = walk.board.judged(&with(from, kind, &[amount]), None).unwrap();
+            walk.evidence(&walk.best, &other)
+        };
+        let right = told(Kind::CurrentBias, BIAS);
+        assert!(right > super::super::named::TELLS, "{right}");
+        assert!(told(Kind::CurrentBias, 0.8 * BIAS) < 0.0, "the other way");
+        for kind in [Kind::QuadraticDrag, Kind::CubicSpring] {
+            let wrong = told(kind, 1e-3);
+            assert!(wrong.abs() < super::super::named::TELLS, "{kind:?} {wrong}");
+        }
     }
 }

@@ -14,11 +14,14 @@ use identify::{
     fit::FitError,
 };
 
+/// Without what does not begin smoothly another effect may come near where no more than so many floors are left.
+const BESIDE: f64 = 3.0;
+
 impl Walk<'_> {
     /// Looks once more for every effect but the last, beside all others: what was found first made up for what was
     /// found later as well, and a richer effect does that better than a simple one. For the last one, too, where it is no
     /// longer plausible: when another was taken away it may have become that one's opposite. What does not begin smoothly
-    /// stays: nothing else comes near where it is.
+    /// stays where much is left without it: nothing else comes near where it is.
     pub(super) fn exchange_each(
         &mut self,
         effects: &mut [Found],
@@ -31,12 +34,14 @@ impl Walk<'_> {
                 break;
             }
             let name = effects[place].name;
-            if plausible && kind_of(name).is_some_and(|kind| !kind.tried().is_empty()) {
+            let (before, ranked) = (self.best.clone(), self.ranking.len());
+            let without = self.without(&before, name)?;
+            let stays = || self.judged(&without.blocks).level() > BESIDE;
+            if plausible && kind_of(name).is_some_and(|kind| !kind.tried().is_empty()) && stays() {
                 continue;
             }
-            let (before, ranked) = (self.best.clone(), self.ranking.len());
             self.reached = self.judged(&before.blocks).level().max(1.0);
-            self.best = self.without(&before, name)?;
+            self.best = without;
             self.origin = self.best.clone();
             let again = self.step(context, options, (effects.len(), None))?;
             self.reached = 1.0;
@@ -106,7 +111,7 @@ fn takes(now: &Judged, then: &Judged, [another, had]: [&str; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Judged, gives_way, key_of, takes};
-    use crate::walk::made::{context, data, found, rig, walk, with};
+    use crate::walk::made::{BIAS, context, data, found, rig, taken, walk, with};
     use identify::effects::Kind;
 
     #[test]
@@ -137,10 +142,10 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_begin_smoothly_stays() {
-        // What is missing is a bias, which takes the place of a drag but not of a soft gear.
-        let data = data();
-        let first = |kind: Kind, values: &[f64]| {
+    fn what_does_not_begin_smoothly_stays_where_much_is_left_without_it() {
+        // What is missing is a bias, which takes the place of a drag; of a soft gear only where it is small.
+        let first = |kind: Kind, values: &[f64], bias: f64| {
+            let data = taken(|_, _| bias);
             let mut walk = walk(&rig(2.0), &data, &[]);
             let rig = with(&with(&rig(2.0), kind, values), Kind::CubicSpring, &[1e-3]);
             walk.best = walk.board.judged(&rig, None).unwrap();
@@ -149,8 +154,10 @@ mod tests {
             walk.exchange_each(&mut effects, &context, &crate::Options::default()).unwrap();
             effects[0].name
         };
-        assert_eq!(first(Kind::QuadraticDrag, &[0.1]), "current_bias");
-        assert_eq!(first(Kind::Compliance, &[1e-4, 0.2, 0.5, 0.01]), "compliance");
+        let soft = [1e-4, 0.2, 0.5, 0.01];
+        assert_eq!(first(Kind::QuadraticDrag, &[0.1], BIAS), "current_bias");
+        assert_eq!(first(Kind::Compliance, &soft, BIAS), "compliance");
+        assert_eq!(first(Kind::Compliance, &soft, 0.012 * BIAS), "current_bias");
     }
 
     #[test]

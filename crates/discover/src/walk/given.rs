@@ -4,7 +4,7 @@ use super::{
     FIRST, Walk,
     answer::{MORE, WRONG, surely_worse},
     exchange::kind_of,
-    named::numbers,
+    named::{TELLS, numbers},
 };
 use crate::{
     board::{Board, Fitted, OFFSET},
@@ -13,6 +13,10 @@ use crate::{
 use identify::{Rig, fit::FitError};
 use rayon::prelude::*;
 use std::mem;
+
+/// Where a free value goes further than this, in its logarithm, the given one is not wrong by itself: a radius twice as large
+/// with springs half as stiff is what the record does not tell.
+const TOO_FAR: f64 = 0.3;
 
 /// An effect of so many numbers is as simple as a wrong value.
 const SIMPLE: usize = 1;
@@ -51,7 +55,11 @@ impl Walk<'_> {
         let before = mem::replace(&mut self.board.loose, loose);
         let fitted = self.ended(fitted)?;
         let worse = surely_worse(&self.judged(&fitted.blocks), &self.judged(&self.best.blocks));
-        let alone = self.board.strayed(&fitted).is_empty() && is_far(&fitted.rig, rig, &name);
+        let others = rig.free.iter().filter(|own| **own != name && !own.contains('.'));
+        let alone = self.board.strayed(&fitted).is_empty()
+            && is_far(&fitted.rig, rig, &name)
+            && others.clone().all(|own| strays_by(&fitted.rig, rig, own) < TOO_FAR);
+        let worse = worse || self.evidence(&fitted, &self.best) > TELLS;
         if worse || !alone || self.leaves(&fitted) > MORE {
             self.board.loose = before;
             return Ok(None);
@@ -78,8 +86,14 @@ impl Walk<'_> {
 
 /// Whether a value is further from the given one than nominal values are.
 fn is_far(found: &Rig, given: &Rig, name: &str) -> bool {
+    strays_by(found, given, name) > WRONG
+}
+
+/// By how much a value is off the given one, in its logarithm; 0 where one is none.
+fn strays_by(found: &Rig, given: &Rig, name: &str) -> f64 {
     let [found, given] = [found, given].map(|rig| rig.value(name).unwrap_or(f64::NAN));
-    (found / given).ln().abs() > WRONG
+    let off = (found / given).ln().abs();
+    if off.is_finite() { off } else { 0.0 }
 }
 
 /// What is given, positive and not free but for being `loose`. A stiction that is the sliding friction is none.
@@ -156,6 +170,15 @@ mod tests {
         assert!(value.is_some() && effects == 0);
         let (value, effects) = wrong((&off, &last), vec![found("current_bias")]);
         assert!(value.is_none() && effects == 1);
+    }
+
+    #[test]
+    fn what_goes_far_with_another_is_no_value_that_is_wrong_by_itself() {
+        let [off, right] = [given(0.8), given(0.5)];
+        let far = |name: &str| super::strays_by(&off, &right, name);
+        assert!((far("sigma_2") - 1.6_f64.ln()).abs() < 1e-12 && far("sigma_2") > super::TOO_FAR);
+        assert_eq!(far("mass"), 0.0);
+        assert_eq!(super::strays_by(&off, &given(0.0), "sigma_2"), 0.0, "nothing was given");
     }
 
     #[test]

@@ -15,6 +15,10 @@ pub(super) const SURE: f64 = 3.0;
 /// The same near the floor.
 const CERTAIN: f64 = 3.5;
 
+/// Or if what it changes is there to so many.
+pub(super) const TELLS: f64 = 6.0;
+const TELLS_BESIDE: f64 = 10.0;
+
 /// Of two effects the second belongs to the set if it is worse by fewer standard errors, or by less than this
 /// share of the excess.
 pub(super) const UNSURE: f64 = 2.0;
@@ -58,6 +62,8 @@ pub(super) const NOTHING: f64 = 1.2;
 pub(super) struct Rated {
     pub(super) candidate: Candidate,
     pub(super) judged: Judged,
+    /// How sure it is that it is there, by what it changes [1].
+    pub(super) evidence: f64,
     /// Whether its values are plausible.
     pub(super) plausible: bool,
 }
@@ -79,7 +85,7 @@ pub(super) fn found<'r>(
     // What noise leaves is known to a tenth or so: what lies below is no excess.
     let floor = plausible.clone().next()?.judged.level().min(1.0);
     let share = |other: &Judged| share_of(now, other, floor);
-    let best = plausible.find(|r| sure(now, &r.judged, (share(&r.judged), round)))?;
+    let best = plausible.find(|r| sure(now, &r.judged, (share(&r.judged), round), r.evidence))?;
     let gone = share(&best.judged);
     let as_much = |r: &Rated| {
         let near = r.judged.level() < NEAR * best.judged.level();
@@ -109,6 +115,13 @@ pub(super) fn found<'r>(
 }
 
 impl Walk<'_> {
+    /// How sure it is that an effect is there, by what it changes of a model that is near the floor [1]; 0 elsewhere, where
+    /// what is left is not noise.
+    pub(super) fn evidence(&self, without: &Fitted, with: &Fitted) -> f64 {
+        let near = self.judged(&without.blocks).level() < GROSS;
+        if near { self.board.evidence(without, with).unwrap_or(0.0) } else { 0.0 }
+    }
+
     /// Whether what takes away the share `gone` of what is left now is one of a few that are missing: not if it takes away
     /// little and what it leaves is more than noise. Far above the floor a little is plenty.
     pub(super) fn leads(&self, now: &Judged, (with, gone): (&Fitted, f64)) -> bool {
@@ -123,8 +136,8 @@ pub(super) fn numbers(kind: Kind) -> usize {
 }
 
 /// Whether an effect beside so many others is surely there, by what is left without and with it.
-pub(super) fn shows(without: &Judged, with: &Judged, others: usize) -> bool {
-    sure(without, with, (share_of(without, with, with.level().min(1.0)), others))
+pub(super) fn shows(without: &Judged, with: &Judged, others: usize, evidence: f64) -> bool {
+    sure(without, with, (share_of(without, with, with.level().min(1.0)), others), evidence)
 }
 
 /// The share of the excess over a floor that is gone with an effect.
@@ -133,21 +146,25 @@ fn share_of(without: &Judged, with: &Judged, floor: f64) -> f64 {
 }
 
 /// Whether what takes away the share `gone` of the excess is surely there.
-fn sure(now: &Judged, judged: &Judged, (gone, round): (f64, usize)) -> bool {
+fn sure(now: &Judged, judged: &Judged, (gone, round): (f64, usize), evidence: f64) -> bool {
     let t = now.against(judged);
     // What an effect leaves in a few blocks because it does not begin as the record does is no other effect's.
     let rarely = || round == 0 && now.gained_besides(judged) > 2.0 * LEAST;
     // Near the floor a few dozen effects are tried on nothing, and the best of them is better by chance.
+    let tells = evidence >= TELLS;
     let sure = if now.level() < NOTHING {
-        t >= CERTAIN || (gone > MOST && (now.everywhere(judged) >= CERTAIN || rarely()))
+        t >= CERTAIN || tells || (gone > MOST && (now.everywhere(judged) >= CERTAIN || rarely()))
     } else {
         let most = if now.level() > GROSS { MUCH } else { MOST };
         t >= SURE
+            || tells
             || (gone > most && t >= UNSURE)
             || (gone > ALL && (rarely() || now.everywhere(judged) >= CERTAIN))
     };
-    let shows =
-        round == 0 || now.level() > NOTHING || judged.level() < (1.0 - BESIDE) * now.level();
+    let shows = round == 0
+        || evidence >= TELLS_BESIDE
+        || now.level() > NOTHING
+        || judged.level() < (1.0 - BESIDE) * now.level();
     sure && shows && gone >= WORTH && now.gained(judged) >= LEAST
 }
 
@@ -167,7 +184,7 @@ mod tests {
     }
 
     fn rated(place: usize, judged: Judged) -> Rated {
-        Rated { candidate: candidate(place), judged, plausible: true }
+        Rated { candidate: candidate(place), judged, evidence: 0.0, plausible: true }
     }
 
     fn candidate(place: usize) -> Candidate {
@@ -202,6 +219,23 @@ mod tests {
         // And 0.005 of them 30, which the best of a few dozen effects may come to.
         let all = [rated(0, judged(0.895, 0.01))];
         assert!(found(&now, &all, 0).is_none());
+    }
+
+    #[test]
+    fn what_changes_the_right_thing_is_found_though_it_takes_little() {
+        // A hundred squared standard errors in two of twenty blocks, and noise in the others.
+        let blocks = |gain: f64| {
+            let own = |k: usize| 1.0 + 0.01 * (k as f64).sin() - if k < 2 { gain } else { 0.0 };
+            Judged { blocks: (0..20).map(own).collect(), counts: vec![300.0; 20] }
+        };
+        let (now, then) = (blocks(0.0), blocks(0.17));
+        let told = |evidence: f64, round: usize| {
+            let all = [Rated { evidence, ..rated(0, then.clone()) }];
+            found(&now, &all, round).is_some()
+        };
+        assert!(now.against(&then) < super::SURE && !told(0.0, 0));
+        assert!(told(1.01 * super::TELLS, 0) && !told(1.01 * super::TELLS, 1));
+        assert!(told(1.01 * super::TELLS_BESIDE, 1), "beside another effect");
     }
 
     #[test]
@@ -338,7 +372,7 @@ mod tests {
         let (without, with) = (with(1.5), with(1.0));
         assert!(without.against(&with) < super::SURE);
         assert!(found(&without, &[rated(0, with.clone())], 0).is_some());
-        assert!(super::shows(&without, &with, 0) && !super::shows(&without, &with, 1));
+        assert!(super::shows(&without, &with, 0, 0.0) && !super::shows(&without, &with, 1, 0.0));
     }
 
     #[test]

@@ -225,7 +225,9 @@ impl<'a> Walk<'a> {
             let now = self.judged(&self.best.blocks);
             let needless = |without: &Fitted| {
                 let there = self.judged(&without.blocks);
-                as_good(&there, &now, effects.len() - 1) && self.board.strayed(without).is_empty()
+                let evidence = self.evidence(without, &self.best);
+                as_good(&there, &now, effects.len() - 1, evidence)
+                    && self.board.strayed(without).is_empty()
             };
             // What comes near at once may come all the way.
             if !needless(&without) && self.judged(&without.blocks).level() < CLOSE_TO * now.level()
@@ -251,9 +253,9 @@ impl<'a> Walk<'a> {
 
 /// Whether a model is as good `without` an effect as `with` it, beside so many others. What is taken for what it gains in
 /// many blocks is kept for it.
-fn as_good(without: &Judged, with: &Judged, others: usize) -> bool {
+fn as_good(without: &Judged, with: &Judged, others: usize, evidence: f64) -> bool {
     let near = without.against(with) < SURE && without.level() < AS_GOOD * with.level();
-    near && !shows(without, with, others)
+    near && !shows(without, with, others, evidence)
 }
 
 /// `rig` without one of its effects.
@@ -355,7 +357,7 @@ mod tests {
             let blocks = (0..20).map(|k| if k < far { most } else { 1.0 + 0.001 * k as f64 });
             Judged { blocks: blocks.collect(), counts: vec![300.0; 20] }
         };
-        let kept = |far| !super::as_good(&of(far, 1.25), &of(far, 1.0), 0);
+        let kept = |far| !super::as_good(&of(far, 1.25), &of(far, 1.0), 0, 0.0);
         assert!(of(6, 1.25).against(&of(6, 1.0)) < super::SURE);
         assert!(kept(6) && !kept(2));
     }
