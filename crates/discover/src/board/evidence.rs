@@ -38,13 +38,8 @@ impl Board<'_> {
         let first = self.windows.first().map_or(0, |window| window.first);
         let mut rows = vec![Vec::new(); self.trains.len()];
         for (w, window) in self.windows.iter().enumerate() {
-            let own = if self.imposed() {
-                &fitted.pieces[0].residuals[window.first..window.end]
-            } else {
-                &fitted.pieces[w].residuals[..window.len() * channels]
-            };
             let block: &mut Vec<f64> = &mut rows[self.block(w)];
-            block.extend(own);
+            block.extend(self.own(&fitted.pieces, w, channels));
             for cell in loads.chunks_exact(samples) {
                 block.extend(&cell[window.first - first..window.end - first]);
             }

@@ -353,6 +353,15 @@ impl<'a> Board<'a> {
         Ok(Fitted { rig: rig.clone(), x, pieces, blocks })
     }
 
+    /// The residuals of window `w` in so many channels, sample by sample.
+    fn own<'p>(&self, pieces: &'p [Piece], w: usize, channels: usize) -> &'p [f64] {
+        let window = &self.windows[w];
+        if self.imposed() {
+            return &pieces[0].residuals[window.first..window.end];
+        }
+        &pieces[w].residuals[..window.len() * channels]
+    }
+
     /// The sums of squared residuals, by block and channel; those of the load cells last.
     pub(crate) fn sums(&self, problem: &Problem<'_>, x: &[f64], pieces: &[Piece]) -> Vec<Vec<f64>> {
         let channels = problem.channels();
@@ -361,11 +370,7 @@ impl<'a> Board<'a> {
         let first = self.windows.first().map_or(0, |w| w.first);
         let one = |k: usize| {
             let window = &self.windows[k];
-            let rows = if self.imposed() {
-                &pieces[0].residuals[window.first..window.end]
-            } else {
-                &pieces[k].residuals[..window.len() * channels]
-            };
+            let rows = self.own(pieces, k, channels);
             let mut sums = vec![0.0; channels];
             for (i, r) in rows.iter().enumerate() {
                 sums[i % channels] += r * r;

@@ -55,10 +55,10 @@ impl Walk<'_> {
         let before = mem::replace(&mut self.board.loose, loose);
         let fitted = self.ended(fitted)?;
         let worse = surely_worse(&self.judged(&fitted.blocks), &self.judged(&self.best.blocks));
-        let others = rig.free.iter().filter(|own| **own != name && !own.contains('.'));
+        let mut others = rig.free.iter().filter(|own| **own != name && !own.contains('.'));
         let alone = self.board.strayed(&fitted).is_empty()
             && is_far(&fitted.rig, rig, &name)
-            && others.clone().all(|own| strays_by(&fitted.rig, rig, own) < TOO_FAR);
+            && others.all(|own| strays_by(&fitted.rig, rig, own) < TOO_FAR);
         let worse = worse || self.evidence(&fitted, &self.best) > TELLS;
         if worse || !alone || self.leaves(&fitted) > MORE {
             self.board.loose = before;

@@ -115,8 +115,8 @@ pub(super) fn found<'r>(
 }
 
 impl Walk<'_> {
-    /// How sure it is that an effect is there, by what it changes of a model that is near the floor [1]; 0 elsewhere, where
-    /// what is left is not noise.
+    /// How sure it is that an effect is there, by what it changes of a model that is not far off [1]; 0 elsewhere, where what is
+    /// left is not noise.
     pub(super) fn evidence(&self, without: &Fitted, with: &Fitted) -> f64 {
         let near = self.judged(&without.blocks).level() < GROSS;
         if near { self.board.evidence(without, with).unwrap_or(0.0) } else { 0.0 }
@@ -151,13 +151,11 @@ fn sure(now: &Judged, judged: &Judged, (gone, round): (f64, usize), evidence: f6
     // What an effect leaves in a few blocks because it does not begin as the record does is no other effect's.
     let rarely = || round == 0 && now.gained_besides(judged) > 2.0 * LEAST;
     // Near the floor a few dozen effects are tried on nothing, and the best of them is better by chance.
-    let tells = evidence >= TELLS;
-    let sure = if now.level() < NOTHING {
-        t >= CERTAIN || tells || (gone > MOST && (now.everywhere(judged) >= CERTAIN || rarely()))
+    let by_blocks = if now.level() < NOTHING {
+        t >= CERTAIN || (gone > MOST && (now.everywhere(judged) >= CERTAIN || rarely()))
     } else {
         let most = if now.level() > GROSS { MUCH } else { MOST };
         t >= SURE
-            || tells
             || (gone > most && t >= UNSURE)
             || (gone > ALL && (rarely() || now.everywhere(judged) >= CERTAIN))
     };
@@ -165,7 +163,7 @@ fn sure(now: &Judged, judged: &Judged, (gone, round): (f64, usize), evidence: f6
         || evidence >= TELLS_BESIDE
         || now.level() > NOTHING
         || judged.level() < (1.0 - BESIDE) * now.level();
-    sure && shows && gone >= WORTH && now.gained(judged) >= LEAST
+    (by_blocks || evidence >= TELLS) && shows && gone >= WORTH && now.gained(judged) >= LEAST
 }
 
 #[cfg(test)]
