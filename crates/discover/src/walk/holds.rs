@@ -38,12 +38,15 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         let (rig, data) = (rig.clone().saying(Some(hold)), as_in(hold));
         walked((&rig, board::loose(&rig)), &data, others, options)
     };
-    let first = with(told.hold, &told.others.map(as_in))?;
-    let (mut hold, mut found) = (told.hold, first.found);
-    if let Some(other) = first.other {
-        let second = with(other, &[])?.found;
-        if simpler(&second, &found) {
-            (hold, found) = (other, second);
+    let mut others = told.others.map(as_in).to_vec();
+    let first = with(told.hold, &others)?;
+    let (mut hold, mut found, mut asked) = (told.hold, first.found, first.other);
+    while let Some(other) = asked {
+        others.retain(|data| data.hold != other);
+        let next = with(other, &others)?;
+        asked = next.other;
+        if simpler(&next.found, &found) {
+            (hold, found) = (other, next.found);
         }
     }
     let found = fewest(&rig.clone().saying(Some(hold)), &as_in(hold), options, found)?;
@@ -63,6 +66,13 @@ struct Otherwise {
 fn nearest(ways: Vec<Otherwise>, so: impl Fn(&Otherwise) -> bool) -> Option<Hold> {
     let ways = ways.into_iter().filter(so);
     ways.min_by(|a, b| a.share.total_cmp(&b.share)).map(|other| other.hold)
+}
+
+/// The way that leaves least of those that are notably nearer, if one of these is surely so.
+fn notably_nearer(ways: Vec<Otherwise>) -> Option<Hold> {
+    let notably = |other: &Otherwise| other.t > UNSURE && ALIKE * other.share < 1.0;
+    let surely = ways.iter().any(|other| notably(other) && other.t > SURE);
+    nearest(ways, |other| surely && notably(other))
 }
 
 impl Walk<'_> {
@@ -98,7 +108,7 @@ impl Walk<'_> {
         if let Some(late) = self.late(&near.rig) {
             ways.extend(self.other_ways(&late, &near)?);
         }
-        Ok(nearest(ways, |other| other.t > SURE && ALIKE * other.share < 1.0))
+        Ok(notably_nearer(ways))
     }
 
     /// The model with its input half a sample late, as an input that is held is on the whole: one that is not held, and
@@ -213,6 +223,17 @@ mod tests {
         assert!(
             walk.late(&late).is_none() && made::walk(&bias, &straight, &[]).late(&bias).is_none()
         );
+    }
+
+    #[test]
+    fn where_one_way_is_surely_nearer_another_that_leaves_less_is_turned_to() {
+        let ways = |t: [f64; 2]| {
+            let way = |hold: Hold, t: f64, share: f64| super::Otherwise { hold, t, share };
+            vec![way(Hold::ZeroOrder, t[0], 0.5), way(Hold::Linear, t[1], 0.7)]
+        };
+        assert_eq!(super::notably_nearer(ways([2.6, 3.1])), Some(Hold::ZeroOrder));
+        assert_eq!(super::notably_nearer(ways([1.0, 3.1])), Some(Hold::Linear));
+        assert_eq!(super::notably_nearer(ways([2.6, 2.9])), None);
     }
 
     #[test]

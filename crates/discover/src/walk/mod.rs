@@ -128,18 +128,18 @@ fn walked(
     let mut held = board::loosened(rig, &loose);
     let (mut board, mut refit) = nominal(&held, data, &loose, options.seed)?;
     // What is given and not free may be a little off; what is far off is not the refit's to mend.
-    let strayed = board.strayed(&refit);
-    let strayed: Vec<(String, f64)> =
-        loose.iter().filter(|(name, _)| strayed.contains(name)).cloned().collect();
+    let strayed = board.strayed_alone(&refit);
+    let strayed: Vec<_> = loose.extract_if(.., |(name, _)| strayed.contains(name)).collect();
+    let mut start = held.clone();
     if !strayed.is_empty() {
-        loose.retain(|own| !strayed.contains(own));
         held = board::loosened(rig, &loose);
+        start = board.all_but(&refit, &held);
         (board, refit) = nominal(&held, data, &loose, options.seed)?;
     }
     let rig = &held;
     let channels = refit.blocks.first().map_or(1, Vec::len) as f64;
     let counts: Vec<f64> = board.samples().into_iter().map(|n| n * channels).collect();
-    let mut origin = board.judged(rig, None)?;
+    let mut origin = board.judged(&start, None)?;
     if board.trained(&origin) < board.trained(&refit) || astray(&board, &refit, &origin) {
         refit = from_given(&mut board, &origin, options.seed)?;
         origin = board.again(&origin)?;
