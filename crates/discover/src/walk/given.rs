@@ -125,9 +125,9 @@ mod tests {
     use super::told;
     use crate::{
         verdict::Found,
-        walk::made::{found, rig, taken, walk},
+        walk::made::{found, rig, taken, walk, with},
     };
-    use identify::{Rig, fit::binding};
+    use identify::{Rig, effects::Kind, fit::binding};
 
     /// The model with this much viscous friction, and no free value but the mass.
     fn given(sigma_2: f64) -> Rig {
@@ -170,6 +170,39 @@ mod tests {
         assert!(value.is_some() && effects == 0);
         let (value, effects) = wrong((&off, &last), vec![found("current_bias")]);
         assert!(value.is_none() && effects == 1);
+    }
+
+    #[test]
+    fn where_an_effect_surely_does_better_no_given_value_is_wrong() {
+        let wrong = |drag: f64| {
+            let data = taken(|_, v| drag * v * v.abs());
+            let (off, mut walk) = (given(0.8), walk(&given(0.8), &data, &[]));
+            let right = with(&given(0.5), Kind::QuadraticDrag, &[drag]);
+            walk.best = walk.board.judged(&right, None).unwrap();
+            let mut freed = given(0.5);
+            freed.free.push("sigma_2".to_owned());
+            let other = walk.board.fit(&freed, None, &crate::walk::REFIT).unwrap();
+            let [there, here] = [&other, &walk.best].map(|f| walk.judged(&f.blocks));
+            assert!(!super::surely_worse(&there, &here), "by what is left it is no worse");
+            let found = walk.wrong_given(&off, &mut vec![found("maxwell_slip")]).unwrap();
+            found.is_some()
+        };
+        // The drag is there to three standard errors, and to six.
+        assert!(wrong(0.003) && !wrong(0.0055));
+    }
+
+    #[test]
+    fn a_value_with_which_a_free_one_goes_far_is_not_wrong_by_itself() {
+        let wrong = |mass: f64| {
+            let data = taken(|_, _| 0.0);
+            let mut off = given(0.8);
+            binding::set(&mut off, "mass", mass);
+            let mut walk = walk(&off, &data, &[]);
+            walk.best = walk.board.judged(&given(0.5), None).unwrap();
+            walk.wrong_given(&off, &mut vec![found("maxwell_slip")]).unwrap().is_some()
+        };
+        // Not at all, and by 1.45 times.
+        assert!(wrong(2.0) && !wrong(2.9));
     }
 
     #[test]
