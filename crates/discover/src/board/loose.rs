@@ -172,12 +172,13 @@ impl Board<'_> {
         all
     }
 
-    /// The model `held`, in which something is not free that was in `refit`: with the other values of that one if it lacked nothing,
-    /// for then they are what they should be.
+    /// The model `held`, in which something is not free that was loose in `refit`: with what is free as in that one if it lacked
+    /// nothing, for then it is as it should be.
     pub(crate) fn all_but(&self, refit: &Fitted, held: &Rig) -> Rig {
         let mut rig = held.clone();
         if self.trained_level(refit) < NOTHING {
-            for name in &held.free {
+            let loose = |name: &&String| self.loose.iter().any(|(own, _)| own == *name);
+            for name in held.free.iter().filter(|name| !loose(name)) {
                 let value = refit.rig.value(name).unwrap_or(f64::NAN);
                 binding::set(&mut rig, name, value);
             }

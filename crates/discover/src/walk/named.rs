@@ -116,9 +116,10 @@ pub(super) fn found<'r>(
 
 impl Walk<'_> {
     /// How sure it is that an effect is there, by what it changes of a model that is not far off [1]; 0 elsewhere, where what is
-    /// left is not noise.
+    /// left is not noise, and where the motion is imposed, whose sensor's noise is in what an effect changes as well as in
+    /// what is left.
     pub(super) fn evidence(&self, without: &Fitted, with: &Fitted) -> f64 {
-        let near = self.judged(&without.blocks).level() < GROSS;
+        let near = !self.board.imposed() && self.judged(&without.blocks).level() < GROSS;
         if near { self.board.evidence(without, with).unwrap_or(0.0) } else { 0.0 }
     }
 
@@ -237,6 +238,16 @@ mod tests {
     }
 
     #[test]
+    fn an_imposed_motion_whose_sensor_trembles_tells_nothing_by_what_changes() {
+        let data = made::slide(0.0);
+        let walk = made::walk(&made::slides(1.4), &data, &[]);
+        let right = walk.board.judged(&made::slides(1.4005), None).unwrap();
+        let more = walk.board.evidence(&walk.best, &right).unwrap();
+        assert!(more > super::TELLS, "{more}");
+        assert_eq!(walk.evidence(&walk.best, &right), 0.0);
+    }
+
+    #[test]
     fn what_a_formula_leaves_beside_an_effect_is_no_other_one() {
         let now = judged(0.95, 0.01);
         for (level, named) in [(0.92, false), (0.88, true)] {
@@ -306,19 +317,15 @@ mod tests {
 
     #[test]
     fn far_off_two_fifths_of_the_excess_are_plenty() {
-        let half = |far: bool| {
-            let size = if far { 100.0 } else { 1.0 };
-            let blocks = |k: usize| {
-                let gain = if k.is_multiple_of(2) { 0.15 } else { 1.0 };
-                [10.0 * size, 10.0 * size * gain]
-            };
-            let of = |i: usize| Judged {
-                blocks: (0..6).map(|k| blocks(k)[i]).collect(),
+        let named = |far: f64| {
+            let of = |gains: [f64; 2]| Judged {
+                blocks: (0..6).map(|k| far * gains[k % 2]).collect(),
                 counts: vec![300.0; 6],
             };
-            found(&of(0), &[rated(0, of(1))], 0).is_some()
+            found(&of([1.0; 2]), &[rated(0, of([0.3, 1.0]))], 0).is_some()
         };
-        assert!(half(true));
+        // 0.45 and 0.48 of it, in three of six blocks.
+        assert!(named(1000.0) && !named(15.0));
     }
 
     #[test]
