@@ -132,29 +132,27 @@ fn apart(rig: &Rig, loose: &[(String, f64)]) -> bool {
 /// these differ is one effect, and their mean may still be a little off.
 fn far(rig: &Rig, loose: &[(String, f64)]) -> Vec<String> {
     let away = |(name, given): &&(String, f64)| away(rig, name, *given);
-    let mut all: Vec<String> = loose.iter().filter(away).map(|(name, _)| name.clone()).collect();
+    let all: Vec<String> = loose.iter().filter(away).map(|(name, _)| name.clone()).collect();
     let pulls = all.iter().filter(|name| PULLS.contains(&name.as_str())).count();
-    if pulls == 2 || pulls == 0 && apart(rig, loose) {
-        all.retain(|name| name != PULLS[0] && name != PULLS[1]);
-        all.push(PULLS[1].to_owned());
-    }
+    if pulls == 2 || pulls == 0 && apart(rig, loose) { one_pull(all) } else { all }
+}
+
+/// `all` with the second spring's pull for both.
+fn one_pull(mut all: Vec<String>) -> Vec<String> {
+    all.retain(|name| !PULLS.contains(&name.as_str()));
+    all.push(PULLS[1].to_owned());
     all
 }
 
 impl Board<'_> {
     /// The parameters that were held near their given values and went far from them all the same.
     pub(crate) fn strayed(&self, fitted: &Fitted) -> Vec<String> {
-        let mut all = far(&fitted.rig, &self.loose);
-        let has = |name: &str| self.loose.iter().find(|(own, _)| own == name);
-        if let [Some((_, one)), Some((other, as_much))] = PULLS.map(has)
-            && one == as_much
-            && !all.contains(other)
-            && self.apart(fitted).is_some_and(|t| t > DIFFER)
-        {
-            all.retain(|name| name != PULLS[0]);
-            all.push(other.clone());
-        }
-        all
+        let all = far(&fitted.rig, &self.loose);
+        let given = |name: &str| self.loose.iter().find(|(own, _)| own == name).map(|own| own.1);
+        let [one, other] = PULLS.map(given);
+        let same = one.is_some() && one == other;
+        let differ = || self.told_apart(fitted).is_some_and(|t| t > DIFFER);
+        if same && differ() { one_pull(all) } else { all }
     }
 
     /// The same of the nominal model alone: where it lacks nothing with a mass that is off by more than nominal values are, that
@@ -188,7 +186,7 @@ impl Board<'_> {
 
     /// By how many standard errors the load cells tell two springs' pulls apart [1]; none where that is not told. Two values
     /// that are a little off are so each by itself, but a rig file in which they are the same says that they are.
-    fn apart(&self, fitted: &Fitted) -> Option<f64> {
+    fn told_apart(&self, fitted: &Fitted) -> Option<f64> {
         let problem = self.problem(&fitted.rig, |_| true).ok()?;
         let (left, slopes) = problem.cells(&fitted.x);
         let place = |name: &str| problem.free.iter().position(|free| free.name == name);
