@@ -103,20 +103,22 @@ fn settled(data: &Data, about: usize, room: usize) -> usize {
 }
 
 /// The noise of the channels.
-fn noises(data: &Data, least: Weights) -> Weights {
+fn noises((rig, data): (&Rig, &Data), least: Weights) -> Weights {
     let of = |seen: &Option<Seen>, least: f64| {
         seen.as_ref().map_or(least, |seen| crate::floor::noise(seen, least))
     };
     let cell = |i: usize| {
-        data.loads.as_ref().map_or(least.loads[i], |l| crate::floor::noise(&l[i], least.loads[i]))
+        let alone = |l: &[Seen; 2]| crate::floor::noise(&l[i], l[i].noise.max(f64::MIN_POSITIVE));
+        data.loads.as_ref().map_or(least.loads[i], alone)
     };
-    Weights {
+    let alone = Weights {
         displacement: of(&data.displacement, least.displacement),
         velocity: of(&data.velocity, least.velocity),
         force: of(&data.force, least.force),
         loads: [cell(0), cell(1)],
         ..least
-    }
+    };
+    alone.along_angle(rig)
 }
 
 /// The length of a block [s], and at least so many, however short the record.
@@ -163,7 +165,7 @@ impl<'a> Board<'a> {
             windows,
             per_block,
             trains,
-            weights: noises(data, weights),
+            weights: noises((rig, data), weights),
             spread: Vec::new(),
             whitening: None,
             loose,

@@ -47,17 +47,34 @@ impl Walk<'_> {
             alone.then(|| (name.clone(), fitted))
         };
         let names = told(rig, &self.off());
-        let all: Vec<(String, Fitted)> = names.par_iter().filter_map(one).collect();
+        let mut all: Vec<(String, Fitted)> = names.par_iter().filter_map(one).collect();
         let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
-        let nearest = all.into_iter().min_by(|a, b| level(&a.1).total_cmp(&level(&b.1)));
-        let Some((name, fitted)) = nearest else { return Ok(None) };
-        let loose = self.besides(&name);
+        all.sort_by(|a, b| level(&a.1).total_cmp(&level(&b.1)));
+        // Of two that scale the drive alike the nearer may ask for more than its own.
+        for (name, fitted) in all {
+            if let Some(fitted) = self.wrong_alone(rig, &name, fitted)? {
+                effects.clear();
+                return Ok(Some(fitted));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The model in which the value of this name is wrong, at its end, if nothing else is and it is no worse than the
+    /// last one, whose place it takes.
+    fn wrong_alone(
+        &mut self,
+        rig: &Rig,
+        name: &str,
+        fitted: Fitted,
+    ) -> Result<Option<Fitted>, FitError> {
+        let loose = self.besides(name);
         let before = mem::replace(&mut self.board.loose, loose);
         let fitted = self.ended(fitted)?;
         let worse = surely_worse(&self.judged(&fitted.blocks), &self.judged(&self.best.blocks));
-        let mut others = rig.free.iter().filter(|own| **own != name && !own.contains('.'));
+        let mut others = rig.free.iter().filter(|own| *own != name && !own.contains('.'));
         let alone = self.board.strayed(&fitted).is_empty()
-            && is_far(&fitted.rig, rig, &name)
+            && is_far(&fitted.rig, rig, name)
             && others.all(|own| strays_by(&fitted.rig, rig, own) < TOO_FAR);
         let worse = worse || self.evidence(&fitted, &self.best) > TELLS;
         if worse || !alone || self.leaves(&fitted) > MORE {
@@ -66,7 +83,6 @@ impl Walk<'_> {
         }
         self.short.loose.clone_from(&self.board.loose);
         self.strayed.clear();
-        effects.clear();
         self.best = fitted.clone();
         Ok(Some(fitted))
     }

@@ -293,7 +293,8 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
         input: data.noise_of_input().max(1e-9),
         force: noise(data.force.as_ref()),
         loads: [0, 1].map(|i| noise(data.loads.as_ref().map(|l| &l[i]))),
-    };
+    }
+    .along_angle(rig);
     let closed_loop = rig.controller.is_some() && !data.reference.is_empty();
     let windows = blocks::whole(data);
     let (free, shares) = (Vec::new(), Vec::new());
