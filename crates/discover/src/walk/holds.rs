@@ -12,7 +12,7 @@ use crate::{
     board::{self, Board, Fitted},
     model::{self, Candidate},
     screen::Scored,
-    verdict::{Discovery, Options},
+    verdict::{Discovery, Moved, Options},
 };
 use identify::{
     Hold, Rig,
@@ -45,7 +45,7 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         others.retain(|data| data.hold != other);
         let next = with(other, &others)?;
         asked = next.other;
-        if simpler(&next.found, &found) {
+        if simpler(&next.found, &found, &rig.free) {
             (hold, found) = (other, next.found);
         }
     }
@@ -150,10 +150,16 @@ impl Walk<'_> {
     }
 }
 
-/// Whether an answer leaves less than another, or as much with fewer effects.
-pub(super) fn simpler(one: &Discovery, other: &Discovery) -> bool {
+/// Whether an answer leaves less than another, or as much with fewer effects; a value that is not `free` and yet far from
+/// what was given is as much as an effect.
+fn simpler(one: &Discovery, other: &Discovery, free: &[String]) -> bool {
     let [own, its] = [one, other].map(|found| found.chi_squared[2]);
-    let [few, many] = [one, other].map(|found| found.rig.effects.len());
+    let far = |p: &&Moved| {
+        p.given > 0.0 && !free.contains(&p.found.name) && board::strays(p.found.value, p.given)
+    };
+    let asks =
+        |found: &Discovery| found.rig.effects.len() + found.parameters.iter().filter(far).count();
+    let [few, many] = [one, other].map(asks);
     match few.cmp(&many) {
         Ordering::Less => own < ALIKE * its,
         Ordering::Equal => own < its,
@@ -163,8 +169,11 @@ pub(super) fn simpler(one: &Discovery, other: &Discovery) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Data, Discovery, Hold, Rig, simpler};
-    use crate::{verdict::Verdict, walk::made};
+    use super::{Data, Discovery, Hold, Moved, Rig, simpler};
+    use crate::{
+        verdict::{Value, Verdict},
+        walk::made,
+    };
     use identify::fit::Seen;
 
     /// An answer with so many effects that leaves so much.
@@ -238,6 +247,7 @@ mod tests {
 
     #[test]
     fn of_two_ways_between_samples_the_one_that_asks_for_fewer_effects_is_right() {
+        let simpler = |one: &Discovery, other: &Discovery| simpler(one, other, &[]);
         assert!(simpler(&answer(1, 1.0), &answer(2, 0.95)));
         assert!(!simpler(&answer(1, 1.2), &answer(2, 0.95)), "but not where more is left");
         assert!(simpler(&answer(1, 0.9), &answer(1, 0.95)));
@@ -245,5 +255,18 @@ mod tests {
             !simpler(&answer(2, 0.92), &answer(1, 1.0))
                 && simpler(&answer(2, 0.8), &answer(1, 1.0))
         );
+    }
+
+    #[test]
+    fn a_value_that_was_given_and_went_far_is_as_much_as_an_effect() {
+        let off = |mass: f64| {
+            let value =
+                Value { name: "mass".to_owned(), value: mass, standard_error: 0.0, unit: "kg" };
+            let parameters = vec![Moved { given: 2.0, found: value, moved: false }];
+            Discovery { parameters, ..answer(1, 1.0) }
+        };
+        let better = |free: &[String]| simpler(&answer(1, 1.05), &off(2.3), free);
+        assert!(better(&[]) && !better(&["mass".to_owned()]));
+        assert!(!simpler(&answer(1, 1.05), &off(2.05), &[]), "as far as nominal values are off");
     }
 }
