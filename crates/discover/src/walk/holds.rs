@@ -2,7 +2,7 @@
 
 use super::{
     ABOVE, ALIKE, End, FIRST, Walk,
-    answer::MORE,
+    answer::{MORE, WRONG},
     fewest::fewest,
     named::{SURE, UNSURE},
     polish::lacking,
@@ -155,7 +155,8 @@ impl Walk<'_> {
 fn simpler(one: &Discovery, other: &Discovery, free: &[String]) -> bool {
     let [own, its] = [one, other].map(|found| found.chi_squared[2]);
     let far = |p: &&Moved| {
-        p.given > 0.0 && !free.contains(&p.found.name) && board::strays(p.found.value, p.given)
+        let off = (p.found.value / p.given).ln().abs();
+        !free.contains(&p.found.name) && off.is_finite() && off > WRONG
     };
     let asks =
         |found: &Discovery| found.rig.effects.len() + found.parameters.iter().filter(far).count();
