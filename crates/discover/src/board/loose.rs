@@ -40,13 +40,15 @@ fn has_cells(rig: &Rig) -> bool {
     rig.channels.contains_key("force_1")
 }
 
-/// The torque of a drum's two prestressed springs, if both pulled the same way and nothing shows it [N·m].
+/// The torque of a drum's two prestressed springs, if both pulled the same way and nothing shows it [N·m]; none where the rig
+/// file gives both as one number, which says that they pull alike.
 pub(super) fn prestress(rig: &Rig) -> f64 {
-    if rig.kind != "drum" || is_free(rig, "f_10") || has_cells(rig) {
+    let value = |key: &str| rig.value(key).unwrap_or(0.0);
+    let pulls = PULLS.map(value);
+    if rig.kind != "drum" || is_free(rig, PULLS[0]) || has_cells(rig) || pulls[0] == pulls[1] {
         return 0.0;
     }
-    let value = |key: &str| rig.value(key).unwrap_or(0.0);
-    (value("f_10").hypot(value("f_20"))) * value("radius")
+    pulls[0].hypot(pulls[1]) * value("radius")
 }
 
 /// The parameters of a plant that are not free but may be a little off. One scale of forces stays as it is.
@@ -275,11 +277,13 @@ mod tests {
         };
         let cells = "force_1 = \"a\"\nforce_2 = \"b\"\n";
         let names = |cells: &str, free: &str| -> Vec<String> {
-            loose(&drum([12.0, 12.0], cells, free)).into_iter().map(|(name, _)| name).collect()
+            loose(&drum([12.0, 12.5], cells, free)).into_iter().map(|(name, _)| name).collect()
         };
         let known = ["f_c", "motor_constant", "f_10"].map(|name| format!("\"{name}\"")).join(", ");
         assert_eq!(names(cells, &known), ["f_20"], "whatever the scale of the drive");
         assert_eq!(names("", "\"f_c\""), ["inertia", "k_1", "k_2", "offset"]);
+        let alike = loose(&drum([12.0, 12.0], "", "\"f_c\""));
+        assert!(alike.iter().all(|(name, _)| name != "offset"), "said to pull alike");
         assert_eq!(
             names(cells, "\"f_c\""),
             ["inertia", "radius", "k_1", "k_2", "f_10", "f_20"],
