@@ -152,6 +152,14 @@ impl Walk<'_> {
         model::plausible(&candidate.fitted.rig, candidate.kind, context, &others)
     }
 
+    /// How sure it is that an effect is there, by what it changes of a model that is not far off [1]; 0 elsewhere, where what is
+    /// left is not noise, and where the motion is imposed, whose sensor's noise is in what an effect changes as well as in
+    /// what is left.
+    pub(super) fn evidence(&self, without: &Fitted, with: &Fitted) -> f64 {
+        let near = !self.board.imposed() && self.judged(&without.blocks).level() < GROSS;
+        if near { self.board.evidence(without, with).unwrap_or(0.0) } else { 0.0 }
+    }
+
     /// The candidates as they are judged, the best first, each effect once as far as it is plausible and once else.
     pub(super) fn rated(&self, candidates: Vec<Candidate>, context: &Context) -> Vec<Rated> {
         let one = |candidate: Candidate| {
@@ -270,9 +278,9 @@ impl Walk<'_> {
 mod tests {
     use crate::{
         gram::Gram,
-        walk::made::{BIAS, context, data, rig, walk, with},
+        walk::made::{self, BIAS, context, data, rig, walk, with},
     };
-    use identify::effects::Kind;
+    use identify::{effects::Kind, fit::Seen};
 
     #[test]
     fn a_model_that_is_far_off_is_left_from_the_given_values_as_well() {
@@ -341,5 +349,21 @@ mod tests {
             let wrong = told(kind, 1e-3);
             assert!(wrong.abs() < super::super::named::TELLS, "{kind:?} {wrong}");
         }
+    }
+
+    #[test]
+    fn an_imposed_motion_whose_sensor_trembles_tells_nothing_by_what_changes() {
+        // One way all along, so that the model comes to the floor of 1 mN.
+        let mut data = made::slide(0.0);
+        (0_u32..).zip(&mut data.input).for_each(|(i, x)| *x = 1e-4 * f64::from(i));
+        let force = data.force.take().unwrap();
+        let onward = force.values.iter().map(|f| f.abs()).collect();
+        data.force = Some(Seen::new("force", onward, 0.0));
+        let walk = made::walk(&made::slides(1.497), &data, &[]);
+        let right = walk.board.judged(&made::slides(1.5), None).unwrap();
+        assert!(walk.judged(&walk.best.blocks).level() < super::GROSS);
+        let more = walk.board.evidence(&walk.best, &right).unwrap();
+        assert!(more > super::super::named::TELLS, "{more}");
+        assert_eq!(walk.evidence(&walk.best, &right), 0.0);
     }
 }

@@ -141,9 +141,13 @@ mod tests {
     use super::told;
     use crate::{
         verdict::Found,
-        walk::made::{found, rig, taken, walk, with},
+        walk::made::{self, found, rig, taken, walk, with},
     };
-    use identify::{Rig, effects::Kind, fit::binding};
+    use identify::{
+        Hold, Rig,
+        effects::Kind,
+        fit::{Data, Seen, binding},
+    };
 
     /// The model with this much viscous friction, and no free value but the mass.
     fn given(sigma_2: f64) -> Rig {
@@ -219,6 +223,33 @@ mod tests {
         };
         // Not at all, and by 1.45 times.
         assert!(wrong(2.0) && !wrong(2.9));
+    }
+
+    #[test]
+    fn where_one_value_drags_another_along_the_next_is_asked() {
+        // A pendulum that swings by 1 rad at 2 rad/s, of 2.4 Ω; at 2.88 Ω torque constant and friction make up for most.
+        let rig = |resistance: f64| {
+            let text = format!(
+                "title = \"a pendulum\"\n[plant]\nkind = \"pendulum\"\ninertia = 0.021\nmass = 0.62\nlength = 0.14\n\
+                 torque_constant = 0.42\nresistance = {resistance:?}\n[friction]\nname = \"coulomb\"\nf_c = 0.11\n\
+                 sigma_2 = 0.02\n[fit]\nfree = [\"f_c\", \"sigma_2\"]\n[channels]\ntime = \"t\"\nvoltage = \"u\"\nangle = \"q\"\n"
+            );
+            Rig::parse(&text).unwrap()
+        };
+        let swings = made::data();
+        let voltage = |t: &f64| {
+            let (s, v) = ((2.0 * t).sin(), 2.0 * (2.0 * t).cos());
+            let weighs = 0.62 * 9.81 * 0.14 * s.sin();
+            2.4 / 0.42 * (-0.021 * 4.0 * s + weighs + 0.11 * v.signum() + 0.02 * v) + 0.42 * v
+        };
+        let input = swings.time.iter().map(voltage).collect();
+        let seen = swings.displacement.unwrap().values;
+        let data = Data::driven(swings.time, input, Hold::Linear, Seen::new("angle", seen, 0.0));
+        let off = rig(2.88);
+        let mut walk = walk(&off, &data, &[]);
+        let refit = walk.wrong_given(&off, &mut vec![found("inertia"), found("cogging")]).unwrap();
+        let value = refit.expect("one is wrong").rig.value("resistance");
+        assert!(value.is_some_and(|value| (value - 2.4).abs() < 0.02), "{value:?}");
     }
 
     #[test]

@@ -36,8 +36,10 @@ const MUCH: f64 = 0.4;
 /// What takes away so much of the excess explains it.
 pub(super) const ALL: f64 = 0.9;
 
-/// It is no name either if the sum of squares on the judging blocks falls by less than so many squared standard errors.
+/// It is no name either if the sum of squares on the judging blocks falls by less than so many squared standard errors, or
+/// than so many where what it changes tells that it is there.
 pub(super) const LEAST: f64 = 60.0;
+const TOLD: f64 = 30.0;
 
 /// Beside an effect that leaves the floor or little more, another lowers it by at least this share: a little is left by
 /// every formula that is not the drive's own.
@@ -115,14 +117,6 @@ pub(super) fn found<'r>(
 }
 
 impl Walk<'_> {
-    /// How sure it is that an effect is there, by what it changes of a model that is not far off [1]; 0 elsewhere, where what is
-    /// left is not noise, and where the motion is imposed, whose sensor's noise is in what an effect changes as well as in
-    /// what is left.
-    pub(super) fn evidence(&self, without: &Fitted, with: &Fitted) -> f64 {
-        let near = !self.board.imposed() && self.judged(&without.blocks).level() < GROSS;
-        if near { self.board.evidence(without, with).unwrap_or(0.0) } else { 0.0 }
-    }
-
     /// Whether what takes away the share `gone` of what is left now is one of a few that are missing: not if it takes away
     /// little and what it leaves is more than noise. Far above the floor a little is plenty.
     pub(super) fn leads(&self, now: &Judged, (with, gone): (&Fitted, f64)) -> bool {
@@ -164,7 +158,9 @@ fn sure(now: &Judged, judged: &Judged, (gone, round): (f64, usize), evidence: f6
         || evidence >= TELLS_BESIDE
         || now.level() > NOTHING
         || judged.level() < (1.0 - BESIDE) * now.level();
-    (by_blocks || evidence >= TELLS) && shows && gone >= WORTH && now.gained(judged) >= LEAST
+    let told = evidence >= TELLS;
+    let least = if told { TOLD } else { LEAST };
+    (by_blocks || told) && shows && gone >= WORTH && now.gained(judged) >= least
 }
 
 #[cfg(test)]
@@ -227,24 +223,17 @@ mod tests {
             let own = |k: usize| 1.0 + 0.01 * (k as f64).sin() - if k < 2 { gain } else { 0.0 };
             Judged { blocks: (0..20).map(own).collect(), counts: vec![300.0; 20] }
         };
-        let (now, then) = (blocks(0.0), blocks(0.17));
-        let told = |evidence: f64, round: usize| {
-            let all = [Rated { evidence, ..rated(0, then.clone()) }];
+        let now = blocks(0.0);
+        let with = |gain: f64, evidence: f64, round: usize| {
+            let all = [Rated { evidence, ..rated(0, blocks(gain)) }];
             found(&now, &all, round).is_some()
         };
-        assert!(now.against(&then) < super::SURE && !told(0.0, 0));
+        let told = |evidence: f64, round: usize| with(0.17, evidence, round);
+        assert!(now.against(&blocks(0.17)) < super::SURE && !told(0.0, 0));
+        let some = |gain: f64| with(gain, 1.01 * super::TELLS, 0);
+        assert!(some(0.06) && !some(0.04), "36 squared standard errors in all, or 24");
         assert!(told(1.01 * super::TELLS, 0) && !told(1.01 * super::TELLS, 1));
         assert!(told(1.01 * super::TELLS_BESIDE, 1), "beside another effect");
-    }
-
-    #[test]
-    fn an_imposed_motion_whose_sensor_trembles_tells_nothing_by_what_changes() {
-        let data = made::slide(0.0);
-        let walk = made::walk(&made::slides(1.4), &data, &[]);
-        let right = walk.board.judged(&made::slides(1.4005), None).unwrap();
-        let more = walk.board.evidence(&walk.best, &right).unwrap();
-        assert!(more > super::TELLS, "{more}");
-        assert_eq!(walk.evidence(&walk.best, &right), 0.0);
     }
 
     #[test]

@@ -229,8 +229,13 @@ impl Problem<'_> {
     ///
     /// A sample in a break-away is worth what its time is: without this a few of them would decide the fit.
     fn velocity_weight(&self, values: &[f64], i: usize) -> f64 {
-        let (before, after) = (i.saturating_sub(1), (i + 1).min(values.len() - 1));
-        self.weights.velocity.hypot(TIMING * 0.5 * (values[after] - values[before]))
+        let kink = |j: usize| {
+            let (before, after) = (j.saturating_sub(1), (j + 1).min(values.len() - 1));
+            (values[after] - 2.0 * values[j] + values[before]).abs()
+        };
+        let near = i.saturating_sub(2)..=(i + 2).min(values.len() - 1);
+        let kink = near.map(kink).fold(0.0, f64::max);
+        self.weights.velocity.hypot(TIMING * (kink - 8.0 * self.weights.velocity).max(0.0))
     }
 
     /// The standard deviation of a sample of the displacement, or of the force.

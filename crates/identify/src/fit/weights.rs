@@ -29,3 +29,28 @@ impl Weights {
         self
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Weights;
+    use crate::Rig;
+
+    #[test]
+    fn the_noise_of_the_angle_is_in_that_of_the_cells() {
+        let rig = Rig::parse(include_str!("../../tests/rigs/gearbox.toml")).expect("a rig");
+        let value = |key: &str| rig.value(key).expect("a parameter");
+        let alone = Weights {
+            displacement: 0.1,
+            velocity: 1.0,
+            input: 1.0,
+            force: 1.0,
+            loads: [3e-3, 0.0],
+        };
+        let both = alone.along_angle(&rig);
+        // By hand: the second cell has no noise of its own.
+        let springs = ["k_1", "k_2"].map(|k| 0.1 * value(k) * value("radius"));
+        assert!((both.loads[0].powi(2) - springs[0].powi(2) - 9e-6).abs() < 1e-15);
+        assert!((both.loads[1] - springs[1]).abs() < 1e-15 && springs[1] > 0.0);
+        assert_eq!(Weights { loads: alone.loads, ..both }, alone);
+    }
+}
