@@ -226,6 +226,7 @@ impl<'a> Board<'a> {
             closed_loop: false,
             tolerance,
             slopes: SLOPES,
+            bends: true,
             priors,
             ..base
         };

@@ -87,7 +87,8 @@ fn misfit(rig: &Rig, data: &Data, hold: Hold) -> Result<Vec<f64>, FitError> {
     let stride = all.len().div_ceil(MOST);
     let some = all.iter().step_by(stride);
     let windows: Vec<Window> = some.map(|w| w.clone().remembering(&data)).collect();
-    let problem = Problem { windows, closed_loop: false, ..Problem::unfree(rig, &data)? };
+    let problem =
+        Problem { windows, closed_loop: false, bends: true, ..Problem::unfree(rig, &data)? };
     let free = binding::free(rig, data.force(rig), data.speed().max(1e-9));
     let problem = Problem { free, tolerance: problem.tolerance.max(TOLERANCE), ..problem };
     let near = descend(&problem, (&starts::nominal(&problem), None), &PATIENCE);

@@ -316,6 +316,7 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
         tolerance: tolerance(data),
         course: Arc::new(course),
         slopes: 0.0,
+        bends: false,
     })
 }
 

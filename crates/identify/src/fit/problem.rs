@@ -6,6 +6,7 @@ use super::{
     displacement::Course,
     imposed::forces,
     piece::Starts,
+    weights::bend,
     window::{ONE_MASS, START, Window},
 };
 pub use super::{
@@ -56,10 +57,14 @@ pub struct Problem<'a> {
     pub course: Arc<Course>,
     /// That of the motion along which derivatives are taken [1]: shorter steps than this do not make them better.
     pub slopes: f64,
+    /// Whether a velocity's time counts only where it bends: in windows that begin anew no break-away is off for long.
+    pub bends: bool,
 }
 
-/// How well the time of a sample is known, in sampling times.
+/// How well the time of a break-away is known, in sampling times; noise does not bend by more than so many times itself: its
+/// second differences are √6 as large.
 const TIMING: f64 = 0.1;
+const BENDS: f64 = 8.0;
 
 /// A motion of so many steps a sample is gone over once more with longer ones for its derivatives: to find these, no fewer
 /// than one a sample, takes longer than to carry derivatives along a few steps more.
@@ -225,17 +230,16 @@ impl Problem<'_> {
         }
     }
 
-    /// The standard deviation of a sample of the velocity: noise, and what it changes by in a share of a sample.
+    /// The standard deviation of a sample of the velocity: noise, and what it is off by for a share of a sample, by how it
+    /// changes or, in windows, by how it bends.
     ///
     /// A sample in a break-away is worth what its time is: without this a few of them would decide the fit.
     fn velocity_weight(&self, values: &[f64], i: usize) -> f64 {
-        let kink = |j: usize| {
-            let (before, after) = (j.saturating_sub(1), (j + 1).min(values.len() - 1));
-            (values[after] - 2.0 * values[j] + values[before]).abs()
-        };
-        let near = i.saturating_sub(2)..=(i + 2).min(values.len() - 1);
-        let kink = near.map(kink).fold(0.0, f64::max);
-        self.weights.velocity.hypot(TIMING * (kink - 8.0 * self.weights.velocity).max(0.0))
+        let noise = self.weights.velocity;
+        let (before, after) = (i.saturating_sub(1), (i + 1).min(values.len() - 1));
+        let bends = || (bend(values, i) - BENDS * noise).max(0.0);
+        let by = if self.bends { bends() } else { 0.5 * (values[after] - values[before]) };
+        noise.hypot(TIMING * by)
     }
 
     /// The standard deviation of a sample of the displacement, or of the force.

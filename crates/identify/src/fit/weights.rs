@@ -30,9 +30,19 @@ impl Weights {
     }
 }
 
+/// By how much `values` bend around sample `i` [their unit]: their largest second difference within two samples of it.
+pub(super) fn bend(values: &[f64], i: usize) -> f64 {
+    let last = values.len() - 1;
+    let second = |j: usize| {
+        let (before, after) = (j.saturating_sub(1), (j + 1).min(last));
+        (values[after] - 2.0 * values[j] + values[before]).abs()
+    };
+    (i.saturating_sub(2)..=(i + 2).min(last)).map(second).fold(0.0, f64::max)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Weights;
+    use super::{Weights, bend};
     use crate::Rig;
 
     #[test]
@@ -52,5 +62,14 @@ mod tests {
         assert!((both.loads[0].powi(2) - springs[0].powi(2) - 9e-6).abs() < 1e-15);
         assert!((both.loads[1] - springs[1]).abs() < 1e-15 && springs[1] > 0.0);
         assert_eq!(Weights { loads: alone.loads, ..both }, alone);
+    }
+
+    #[test]
+    fn a_velocity_bends_where_a_break_away_is_and_not_where_it_grows() {
+        // At rest for ten samples, then faster by 0.3 a sample.
+        let values: Vec<f64> = (0..20).map(|i| 0.3 * (f64::from(i) - 9.0).max(0.0)).collect();
+        let bends: Vec<usize> = (1..19).filter(|i| bend(&values, *i) > 0.29).collect();
+        assert_eq!(bends[..5], [7, 8, 9, 10, 11], "and at the end, beyond which nothing is");
+        assert!(bends[5..].iter().all(|i| *i > 16) && bend(&values, 14) < 1e-12);
     }
 }
