@@ -143,6 +143,7 @@ fn fitted(rig: &Rig, data: &Data) -> (Found, Vec<f64>) {
         tolerance: TOLERANCE,
         course: Arc::default(),
         slopes: 0.0,
+        bends: false,
     };
     let found = newton::settle(&problem, search(&problem, (&x, None), None, &TO_THE_END), None);
     let values = (0..found.x.len()).map(|i| problem.value(i, &found.x)).collect();
