@@ -3,6 +3,7 @@
 mod ahead;
 mod evidence;
 mod loose;
+mod noises;
 mod race;
 mod steps;
 
@@ -13,7 +14,7 @@ pub(crate) use steps::{FINE, ROUGH};
 use identify::{
     Rig,
     fit::{
-        Data, FitError, Seen,
+        Data, FitError,
         binding::Scale,
         blocks,
         descent::descend,
@@ -26,6 +27,7 @@ use identify::{
     },
 };
 use loose::{LOOSE, prestress};
+use noises::noises;
 use std::sync::Arc;
 
 /// The record on its blocks.
@@ -100,25 +102,6 @@ fn settled(data: &Data, about: usize, room: usize) -> usize {
         all.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, i)| *i)
     };
     furthest(true).or_else(|| furthest(false)).unwrap_or(about)
-}
-
-/// The noise of the channels.
-fn noises((rig, data): (&Rig, &Data), least: Weights) -> Weights {
-    let of = |seen: &Option<Seen>, least: f64| {
-        seen.as_ref().map_or(least, |seen| crate::floor::noise(seen, least))
-    };
-    let cell = |i: usize| {
-        let alone = |l: &[Seen; 2]| crate::floor::noise(&l[i], l[i].noise.max(f64::MIN_POSITIVE));
-        data.loads.as_ref().map_or(least.loads[i], alone)
-    };
-    let alone = Weights {
-        displacement: of(&data.displacement, least.displacement),
-        velocity: of(&data.velocity, least.velocity),
-        force: of(&data.force, least.force),
-        loads: [cell(0), cell(1)],
-        ..least
-    };
-    alone.along_angle(rig)
 }
 
 /// The length of a block [s], and at least so many, however short the record.

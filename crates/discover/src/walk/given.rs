@@ -105,9 +105,14 @@ fn is_far(found: &Rig, given: &Rig, name: &str) -> bool {
     strays_by(found, given, name) > WRONG
 }
 
-/// By how much a value is off the given one, in its logarithm; 0 where one is none.
+/// By how much the value of this name is off the given one, in its logarithm; 0 where one is none.
 fn strays_by(found: &Rig, given: &Rig, name: &str) -> f64 {
     let [found, given] = [found, given].map(|rig| rig.value(name).unwrap_or(f64::NAN));
+    off_by(found, given)
+}
+
+/// By how much a value is off the `given` one, in its logarithm; 0 where one is none.
+pub(super) fn off_by(found: f64, given: f64) -> f64 {
     let off = (found / given).ln().abs();
     if off.is_finite() { off } else { 0.0 }
 }

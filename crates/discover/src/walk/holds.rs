@@ -4,6 +4,7 @@ use super::{
     ABOVE, ALIKE, End, FIRST, Walk,
     answer::{MORE, WRONG},
     fewest::fewest,
+    given::off_by,
     named::{SURE, UNSURE},
     polish::lacking,
     walked,
@@ -154,10 +155,7 @@ impl Walk<'_> {
 /// what was given is as much as an effect.
 fn simpler(one: &Discovery, other: &Discovery, free: &[String]) -> bool {
     let [own, its] = [one, other].map(|found| found.chi_squared[2]);
-    let far = |p: &&Moved| {
-        let off = (p.found.value / p.given).ln().abs();
-        !free.contains(&p.found.name) && off.is_finite() && off > WRONG
-    };
+    let far = |p: &&Moved| !free.contains(&p.found.name) && off_by(p.found.value, p.given) > WRONG;
     let asks =
         |found: &Discovery| found.rig.effects.len() + found.parameters.iter().filter(far).count();
     let [few, many] = [one, other].map(asks);

@@ -32,12 +32,8 @@ impl Weights {
 
 /// By how much `values` bend around sample `i` [their unit]: their largest second difference within two samples of it.
 pub(super) fn bend(values: &[f64], i: usize) -> f64 {
-    let last = values.len() - 1;
-    let second = |j: usize| {
-        let (before, after) = (j.saturating_sub(1), (j + 1).min(last));
-        (values[after] - 2.0 * values[j] + values[before]).abs()
-    };
-    (i.saturating_sub(2)..=(i + 2).min(last)).map(second).fold(0.0, f64::max)
+    let around = &values[i.saturating_sub(3)..values.len().min(i + 4)];
+    around.windows(3).map(|v| (v[2] - 2.0 * v[1] + v[0]).abs()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
