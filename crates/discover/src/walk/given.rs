@@ -232,29 +232,34 @@ mod tests {
 
     #[test]
     fn where_one_value_drags_another_along_the_next_is_asked() {
-        // A pendulum that swings by 1 rad at 2 rad/s, of 2.4 Ω; at 2.88 Ω torque constant and friction make up for most.
+        // A pendulum that swings by 1 rad at 2 rad/s. K/R is right with either value, and σ₂ makes up for K²/R, so that noise
+        // decides which of the two is nearer.
         let rig = |resistance: f64| {
             let text = format!(
                 "title = \"a pendulum\"\n[plant]\nkind = \"pendulum\"\ninertia = 0.021\nmass = 0.62\nlength = 0.14\n\
                  torque_constant = 0.42\nresistance = {resistance:?}\n[friction]\nname = \"coulomb\"\nf_c = 0.11\n\
-                 sigma_2 = 0.02\n[fit]\nfree = [\"f_c\", \"sigma_2\"]\n[channels]\ntime = \"t\"\nvoltage = \"u\"\nangle = \"q\"\n"
+                 sigma_2 = 0.05\n[fit]\nfree = [\"f_c\", \"sigma_2\"]\n[channels]\ntime = \"t\"\nvoltage = \"u\"\nangle = \"q\"\n"
             );
             Rig::parse(&text).unwrap()
         };
-        let swings = made::data();
         let voltage = |t: &f64| {
             let (s, v) = ((2.0 * t).sin(), 2.0 * (2.0 * t).cos());
             let weighs = 0.62 * 9.81 * 0.14 * s.sin();
-            2.4 / 0.42 * (-0.021 * 4.0 * s + weighs + 0.11 * v.signum() + 0.02 * v) + 0.42 * v
+            2.4 / 0.42 * (-0.021 * 4.0 * s + weighs + 0.11 * v.signum() + 0.05 * v) + 0.42 * v
         };
-        let input = swings.time.iter().map(voltage).collect();
-        let seen = swings.displacement.unwrap().values;
-        let data = Data::driven(swings.time, input, Hold::Linear, Seen::new("angle", seen, 0.0));
-        let off = rig(2.88);
-        let mut walk = walk(&off, &data, &[]);
-        let refit = walk.wrong_given(&off, &mut vec![found("inertia"), found("cogging")]).unwrap();
-        let value = refit.expect("one is wrong").rig.value("resistance");
-        assert!(value.is_some_and(|value| (value - 2.4).abs() < 0.02), "{value:?}");
+        let off = rig(3.0);
+        for seed in [1, 2] {
+            let swings = made::noisy(seed);
+            let input = swings.time.iter().map(voltage).collect();
+            let seen = swings.displacement.unwrap().values;
+            let data =
+                Data::driven(swings.time, input, Hold::Linear, Seen::new("angle", seen, 0.0));
+            let mut walk = walk(&off, &data, &[]);
+            let mut effects = vec![found("inertia"), found("cogging")];
+            let refit = walk.wrong_given(&off, &mut effects).unwrap();
+            let value = refit.expect("one is wrong").rig.value("resistance");
+            assert!(value.is_some_and(|value| (value - 2.4).abs() < 0.03), "{value:?}");
+        }
     }
 
     #[test]

@@ -28,7 +28,12 @@ pub(crate) fn rig(mass: f64) -> Rig {
 
 /// x = sin 2t of 2 kg under the force that its equation asks for, but for the bias; noise of 1 mm.
 pub(crate) fn data() -> Data {
-    let mut random = ChaCha8Rng::seed_from_u64(5);
+    noisy(5)
+}
+
+/// The same with the noise of another seed.
+pub(crate) fn noisy(seed: u64) -> Data {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
     let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
     let input = time.iter().map(|t| {
