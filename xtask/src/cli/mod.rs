@@ -61,6 +61,15 @@ pub(crate) enum Command {
     ///
     /// Ends with 0 whatever the verdict is.
     Discover(DiscoverArgs),
+    /// Print the library of effects that a model can lack, with their equations and parameters.
+    Effects {
+        /// As JSON.
+        #[arg(long)]
+        json: bool,
+        /// As the table in the README.
+        #[arg(long, conflicts_with = "json")]
+        markdown: bool,
+    },
     /// Time the methods on the anchors, or run what else takes long.
     Bench(BenchArgs),
     /// Compare two saved runs of the benchmark.

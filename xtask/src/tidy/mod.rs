@@ -6,7 +6,7 @@ mod lists;
 mod sources;
 
 use crate::{
-    claims,
+    claims, effects,
     exit::{Exit, Failure},
     output, root,
 };
@@ -98,6 +98,12 @@ fn readme(root: &Path) -> Result<Vec<String>, Failure> {
     if !readme.contains(&table) {
         breaches.push(
             "README.md: its table of claims is not what `cargo xtask claims --markdown` prints"
+                .to_owned(),
+        );
+    }
+    if !readme.contains(&effects::table()) {
+        breaches.push(
+            "README.md: its table of effects is not what `cargo xtask effects --markdown` prints"
                 .to_owned(),
         );
     }

@@ -15,9 +15,11 @@ pub(super) const SURE: f64 = 3.0;
 /// The same near the floor.
 const CERTAIN: f64 = 3.5;
 
-/// Or if what it changes is there to so many.
+/// Or if what it changes is there to so many, or to fewer where the sum of squares falls by that of ten standard errors.
 pub(super) const TELLS: f64 = 6.0;
 const TELLS_BESIDE: f64 = 10.0;
+const TELLS_MUCH: f64 = 4.0;
+const MUCH_TOLD: f64 = 100.0;
 
 /// Of two effects the second belongs to the set if it is worse by fewer standard errors, or by less than this
 /// share of the excess.
@@ -158,9 +160,10 @@ fn sure(now: &Judged, judged: &Judged, (gone, round): (f64, usize), evidence: f6
         || evidence >= TELLS_BESIDE
         || now.level() > NOTHING
         || judged.level() < (1.0 - BESIDE) * now.level();
-    let told = evidence >= TELLS;
+    let gained = now.gained(judged);
+    let told = evidence >= if gained < MUCH_TOLD { TELLS } else { TELLS_MUCH };
     let least = if told { TOLD } else { LEAST };
-    (by_blocks || told) && shows && gone >= WORTH && now.gained(judged) >= least
+    (by_blocks || told) && shows && gone >= WORTH && gained >= least
 }
 
 #[cfg(test)]
@@ -232,6 +235,8 @@ mod tests {
         assert!(now.against(&blocks(0.17)) < super::SURE && !told(0.0, 0));
         let some = |gain: f64| with(gain, 1.01 * super::TELLS, 0);
         assert!(some(0.06) && !some(0.04), "36 squared standard errors in all, or 24");
+        let fewer = |gain: f64| with(gain, 1.01 * super::TELLS_MUCH, 0);
+        assert!(fewer(0.17) && !fewer(0.16), "102 squared standard errors, or 96");
         assert!(told(1.01 * super::TELLS, 0) && !told(1.01 * super::TELLS, 1));
         assert!(told(1.01 * super::TELLS_BESIDE, 1), "beside another effect");
     }

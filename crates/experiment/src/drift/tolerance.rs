@@ -45,8 +45,9 @@ pub(super) fn searched(field: &str, row: &Row) -> Tolerance {
         "refit" | "standard_error" => Within(1.5),
         "value" => Close { relative: 1e-9, absolute: SHORT * standard_error(row) },
         "shrink" => Close { relative: 0.05, absolute: 0.05 },
-        // Where a model lacks much a window or two follow another way on another processor, and are far off there.
-        "share" => Close { relative: 0.0, absolute: 0.1 },
+        // Where a model lacks much some windows follow another way on another processor, and are far off there: of the 33 of
+        // the rig's record, refitted without its bias, four, which count as a ninth of all that is in excess.
+        "share" => Close { relative: 0.0, absolute: 0.2 },
         "t" => Close { relative: 0.3, absolute: 0.5 },
         "truth" => TIGHT,
         _ => Exact,

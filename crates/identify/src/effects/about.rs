@@ -48,6 +48,27 @@ pub enum Measure {
     Time,
 }
 
+impl Measure {
+    /// The units of what slides and of what turns; of an input those of a force.
+    pub fn units(self) -> [&'static str; 2] {
+        match self {
+            Self::One | Self::Amplitude => ["", ""],
+            Self::Input | Self::Force => ["N", "N·m"],
+            Self::Pull => ["N", "N"],
+            Self::PullRate => ["N/s", "N/s"],
+            Self::Damping => ["N·s/m", "N·m·s/rad"],
+            Self::Drag => ["N·s²/m²", "N·m·s²/rad²"],
+            Self::Stiffness => ["N/m", "N·m/rad"],
+            Self::Flexibility => ["m/N", "rad/(N·m)"],
+            Self::Cubic => ["N/m³", "N·m/rad³"],
+            Self::Speed => ["m/s", "rad/s"],
+            Self::Length => ["m", "rad"],
+            Self::Wavenumber => ["1/m", "1/rad"],
+            Self::Time => ["s", "s"],
+        }
+    }
+}
+
 /// Which values are plausible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sign {
@@ -217,6 +238,8 @@ pub struct About {
     pub name: &'static str,
     /// Its physics, in a line.
     pub physics: &'static str,
+    /// What it changes: F is the friction of the model, u its input, q its displacement; the parameters go by their keys.
+    pub equation: &'static str,
     /// The channel that shows it first.
     pub channel: Channel,
     /// Its parameters.
@@ -244,28 +267,10 @@ impl About {
     pub fn unit(&self, key: &str, rig: &Rig) -> &'static str {
         let Some(key) = self.keys.iter().find(|k| k.name == key) else { return "" };
         let turns = Plant::of(rig.kind).is_some_and(Plant::turns);
-        let by = |turned: &'static str, slid: &'static str| if turns { turned } else { slid };
-        match key.measure {
-            Measure::One | Measure::Amplitude => "",
-            Measure::Input => {
-                match ["current", "voltage"].iter().find(|c| rig.channels.contains_key(**c)) {
-                    Some(&"current") => "A",
-                    Some(_) => "V",
-                    None => by("N·m", "N"),
-                }
-            }
-            Measure::Force => by("N·m", "N"),
-            Measure::Pull => "N",
-            Measure::PullRate => "N/s",
-            Measure::Damping => by("N·m·s/rad", "N·s/m"),
-            Measure::Drag => by("N·m·s²/rad²", "N·s²/m²"),
-            Measure::Stiffness => by("N·m/rad", "N/m"),
-            Measure::Flexibility => by("rad/(N·m)", "m/N"),
-            Measure::Cubic => by("N·m/rad³", "N/m³"),
-            Measure::Speed => by("rad/s", "m/s"),
-            Measure::Length => by("rad", "m"),
-            Measure::Wavenumber => by("1/rad", "1/m"),
-            Measure::Time => "s",
+        match ["current", "voltage"].iter().find(|c| rig.channels.contains_key(**c)) {
+            Some(&"current") if key.measure == Measure::Input => "A",
+            Some(_) if key.measure == Measure::Input => "V",
+            _ => key.measure.units()[usize::from(turns)],
         }
     }
 }

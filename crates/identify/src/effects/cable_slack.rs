@@ -10,6 +10,7 @@ impl Law for CableSlack {
     const ABOUT: About = About {
         name: "cable_slack",
         physics: "A cable cannot push: a spring whose force has come down to nothing stays there.",
+        equation: "springs push with 1 − amount of what they would push with",
         channel: Channel::Loads,
         keys: &[Key::positive("amount", Measure::One, 1.5)],
         probes: About::no_shape,

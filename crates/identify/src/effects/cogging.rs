@@ -13,6 +13,7 @@ impl Law for Cogging {
     const ABOUT: About = About {
         name: "cogging",
         physics: "A torque that repeats with the angle, as of magnets and teeth.",
+        equation: "F + s(q), s = sine sin κq + cosine cos κq with κ = wavenumber, and share_2 of s(2κq + phase_2)",
         channel: Channel::Torque,
         // The overtone has a share of the wave's amplitude, and is ahead of it by its phase [rad].
         keys: &[

@@ -10,6 +10,7 @@ impl Law for Coulomb {
     const ABOUT: About = About {
         name: "coulomb",
         physics: "Dry friction of a constant size against the motion.",
+        equation: "F + f_c sgn q', and at rest what holds, up to f_c",
         channel: Channel::Torque,
         keys: &[Key::positive("f_c", Measure::Force, 20.0)],
         probes: About::no_shape,

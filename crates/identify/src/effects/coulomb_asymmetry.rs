@@ -10,6 +10,7 @@ impl Law for CoulombAsymmetry {
     const ABOUT: About = About {
         name: "coulomb_asymmetry",
         physics: "Friction is stronger in one direction than in the other.",
+        equation: "F (1 + ratio sgn F)",
         channel: Channel::Torque,
         keys: &[Key::amount("ratio", Measure::One, 0.8)],
         probes: About::no_shape,

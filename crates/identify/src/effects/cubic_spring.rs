@@ -10,6 +10,7 @@ impl Law for CubicSpring {
     const ABOUT: About = About {
         name: "cubic_spring",
         physics: "Springs grow stiffer, or softer, when they are drawn.",
+        equation: "F + k_3 q³",
         channel: Channel::Loads,
         keys: &[Key::amount("k_3", Measure::Cubic, 5.0)],
         probes: About::no_shape,

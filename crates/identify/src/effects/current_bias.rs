@@ -10,6 +10,7 @@ impl Law for CurrentBias {
     const ABOUT: About = About {
         name: "current_bias",
         physics: "The true input is what was recorded and a constant more.",
+        equation: "u = u_recorded + bias",
         channel: Channel::Torque,
         keys: &[Key::amount("bias", Measure::Input, 0.9)],
         probes: About::no_shape,

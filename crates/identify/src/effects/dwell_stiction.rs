@@ -10,6 +10,7 @@ impl Law for DwellStiction {
     const ABOUT: About = About {
         name: "dwell_stiction",
         physics: "The longer a contact rests, the more it takes to break it away.",
+        equation: "F_C + drop z, z' = (1 − z)/tau − z |q'|/(wear d), d the deflection of the bristles at which they slip",
         channel: Channel::Torque,
         keys: &[Key::positive("drop", Measure::Force, 3.0), Key::fitted("tau", Measure::Time), Key::fitted("wear", Measure::One).usually(1.0)],
         probes: |c| (if c.memory > 0.0 { [1.0, 10.0] } else { [3.0, 50.0] }).iter().flat_map(|wear| [0.1, 0.5, 2.0].map(|tau| vec![tau, *wear])).collect(),

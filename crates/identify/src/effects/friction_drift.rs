@@ -10,6 +10,7 @@ impl Law for FrictionDrift {
     const ABOUT: About = About {
         name: "friction_drift",
         physics: "Friction changes with time, as when it warms up.",
+        equation: "F (1 + amount (1 − exp(−t/tau)))",
         channel: Channel::Torque,
         keys: &[Key::amount("amount", Measure::One, 0.9), Key::fitted("tau", Measure::Time), Key::probed("form", Measure::One)],
         probes: |c| {

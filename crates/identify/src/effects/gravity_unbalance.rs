@@ -10,6 +10,7 @@ impl Law for GravityUnbalance {
     const ABOUT: About = About {
         name: "gravity_unbalance",
         physics: "A weight out of the middle pulls once a turn.",
+        equation: "F + sine sin q + cosine cos q",
         channel: Channel::Torque,
         keys: &[Key::amount("sine", Measure::Force, 5.0), Key::amount("cosine", Measure::Force, 5.0)],
         // Whether an axis turns or slides is not said; what does not come as far as a radian shows no turn.

@@ -13,6 +13,7 @@ impl Law for Inertia {
     const ABOUT: About = About {
         name: "inertia",
         physics: "More mass moves than the model says, or less.",
+        equation: "M (1 + ratio)",
         channel: Channel::Torque,
         keys: &[Key::amount("ratio", Measure::One, 4.0)],
         probes: About::no_shape,

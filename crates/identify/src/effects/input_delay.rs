@@ -10,6 +10,7 @@ impl Law for InputDelay {
     const ABOUT: About = About {
         name: "input_delay",
         physics: "The drive acts later than it was recorded.",
+        equation: "u(t) = u_recorded(t − delay)",
         channel: Channel::Torque,
         keys: &[Key::positive("delay", Measure::Time, 20.0)],
         probes: About::no_shape,

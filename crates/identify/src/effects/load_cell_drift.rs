@@ -13,6 +13,7 @@ impl Law for LoadCellDrift {
     const ABOUT: About = About {
         name: "load_cell_drift",
         physics: "The load cells drift with time, and less and less.",
+        equation: "F_i + rate_i tau (1 − exp(−t/tau))",
         channel: Channel::Loads,
         keys: &[
             Key::amount("rate", Measure::PullRate, 50.0),

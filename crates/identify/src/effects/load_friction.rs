@@ -10,6 +10,7 @@ impl Law for LoadFriction {
     const ABOUT: About = About {
         name: "load_friction",
         physics: "Friction grows with the load that the drive carries.",
+        equation: "F_C + ratio |load|; load: of forms 1, 2 and 5 what the drive gives, of 3, 4 and 6 what springs and weight pull with",
         channel: Channel::Torque,
         // Forms 1, 2 and 5: by what drives it; 3, 4 and 6: by what springs and weight pull with.
         keys: &[Key::positive("ratio", Measure::One, 2.0), Key::probed("form", Measure::One)],

@@ -14,6 +14,7 @@ impl Law for Map {
     const ABOUT: About = About {
         name: "map",
         physics: "A force of unknown origin, and where it acts.",
+        equation: "F + amount (1 − |x − center|/width), x an axis",
         channel: Channel::Torque,
         keys: &[
             Key::amount("amount", Measure::Force, 1e9),

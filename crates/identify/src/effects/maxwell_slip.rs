@@ -10,6 +10,7 @@ impl Law for MaxwellSlip {
     const ABOUT: About = About {
         name: "maxwell_slip",
         physics: "Springs that slip act beside the friction, and remember more than the last turn.",
+        equation: "F + Σ k share_i z_i, z_i' = q' while |z_i| < delta_i, up to four of them, the first with share 1 and delta",
         channel: Channel::Torque,
         // Of every further spring the stiffness is a share of the first one's.
         keys: &[

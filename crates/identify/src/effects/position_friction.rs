@@ -10,6 +10,7 @@ impl Law for PositionFriction {
     const ABOUT: About = About {
         name: "position_friction",
         physics: "Friction differs from place to place.",
+        equation: "F (1 + s(q)), s = sine sin κq + cosine cos κq with κ = wavenumber, and share_2 of s(2κq + phase_2)",
         channel: Channel::Torque,
         // The overtone as in `cogging`.
         keys: &[

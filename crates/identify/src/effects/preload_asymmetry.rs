@@ -10,6 +10,7 @@ impl Law for PreloadAsymmetry {
     const ABOUT: About = About {
         name: "preload_asymmetry",
         physics: "The two springs are not drawn alike at rest.",
+        equation: "F_1 − F_2 is larger by force at rest; cable: 1 shared by both, 2 the first one's, 3 the second one's",
         channel: Channel::Loads,
         // Drawn more is the first and as much less the second, 1; the first alone, 2; the second alone is drawn less, 3.
         keys: &[Key::amount("force", Measure::Pull, 10.0), Key::probed("cable", Measure::One)],

@@ -9,6 +9,7 @@ impl Law for Presliding {
     const ABOUT: About = About {
         name: "presliding",
         physics: "Before it slides a contact gives way like a spring, and dissipates.",
+        equation: "Coulomb friction becomes Dahl's, with sigma and gamma",
         channel: Channel::Torque,
         keys: &[Key::fitted("sigma", Measure::Stiffness), Key::fitted("gamma", Measure::One).usually(1.0)],
         probes: |c| [1e4, 1e3, 100.0].iter().map(|s| vec![s * c.force / c.span, 1.0]).collect(),

@@ -10,6 +10,7 @@ impl Law for QuadraticDrag {
     const ABOUT: About = About {
         name: "quadratic_drag",
         physics: "Drag grows with the square of the speed.",
+        equation: "F + c q' |q'|",
         channel: Channel::Torque,
         keys: &[Key::positive("c", Measure::Drag, 5.0)],
         probes: About::no_shape,

@@ -10,6 +10,7 @@ impl Law for Stribeck {
     const ABOUT: About = About {
         name: "stribeck",
         physics: "Friction falls from its break-away value to that of sliding.",
+        equation: "F_C + drop exp(−(q'/v_s)²), of form 2 exp(−|q'|/v_s), of form 5 1/(1 + (q'/v_s)²); 3, 4 and 6 are these of the whole force",
         channel: Channel::Torque,
         keys: &[Key::positive("drop", Measure::Force, 3.0), Key::fitted("v_s", Measure::Speed), Key::probed("form", Measure::One)],
         probes: |c| {

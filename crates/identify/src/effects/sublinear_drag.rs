@@ -25,6 +25,7 @@ impl Law for SublinearDrag {
     const ABOUT: About = About {
         name: "sublinear_drag",
         physics: "Friction grows with the speed, and less and less.",
+        equation: "F + c q' (1 + (q'/v_0)²)^(−bend/2), of form 2 c v_0 asinh(bend q'/v_0)/bend",
         channel: Channel::Torque,
         // Carreau's law of a lubricant that thins with shear, its power index 1 − bend (Bird, Armstrong and Hassager,
         // Dynamics of Polymeric Liquids, vol. 1, Wiley 1987, eq. 4.1-9).

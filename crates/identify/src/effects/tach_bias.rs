@@ -10,6 +10,7 @@ impl Law for TachBias {
     const ABOUT: About = About {
         name: "tach_bias",
         physics: "The velocity sensor shows a constant beside the velocity.",
+        equation: "w = q' + bias",
         channel: Channel::Kinematics,
         keys: &[Key::amount("bias", Measure::Speed, 0.9)],
         probes: About::no_shape,

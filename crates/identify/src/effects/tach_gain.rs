@@ -10,6 +10,7 @@ impl Law for TachGain {
     const ABOUT: About = About {
         name: "tach_gain",
         physics: "The velocity sensor shows too much or too little, in proportion.",
+        equation: "w = (1 + error) q'",
         channel: Channel::Kinematics,
         keys: &[Key::amount("error", Measure::One, 0.9)],
         probes: About::no_shape,

@@ -27,6 +27,7 @@ impl Law for TorqueSaturation {
     const ABOUT: About = About {
         name: "torque_saturation",
         physics: "The drive gives less than it should when it is to give much: from the knee on, over the width of a bend.",
+        equation: "of the drive τ so much is lost: loss (|τ| − knee) beyond the knee, over a bend of this width; form 2: knee tanh(τ/knee) is left; 3: τ/(1 + |τ/knee|^p)^(1/p), p = knee/width",
         channel: Channel::Torque,
         keys: &[
             Key::positive("loss", Measure::One, 1.2),

@@ -35,6 +35,7 @@ impl Law for VelocityLag {
     const ABOUT: About = About {
         name: "velocity_lag",
         physics: "The velocity sensor follows late, as behind a filter.",
+        equation: "tau w' = q' − w, w what the sensor shows",
         channel: Channel::Kinematics,
         keys: &[Key::positive("tau", Measure::Time, 50.0)],
         probes: About::no_shape,

@@ -10,6 +10,7 @@ impl Law for Viscous {
     const ABOUT: About = About {
         name: "viscous",
         physics: "Friction grows with the speed.",
+        equation: "F + sigma_2 q'",
         channel: Channel::Torque,
         keys: &[Key::positive("sigma_2", Measure::Damping, 20.0)],
         probes: About::no_shape,

@@ -10,6 +10,7 @@ impl Law for ViscousAsymmetry {
     const ABOUT: About = About {
         name: "viscous_asymmetry",
         physics: "Drag is stronger in one direction than in the other.",
+        equation: "F + c |q'|",
         channel: Channel::Torque,
         keys: &[Key::amount("c", Measure::Damping, 5.0)],
         probes: About::no_shape,
