@@ -4,7 +4,7 @@ use super::{
     FIRST, Walk,
     answer::{MORE, WRONG, surely_worse},
     exchange::kind_of,
-    named::{TELLS, numbers},
+    named::{LEAST, TELLS, numbers},
 };
 use crate::{
     board::{Board, Fitted, OFFSET},
@@ -71,12 +71,14 @@ impl Walk<'_> {
         let loose = self.besides(name);
         let before = mem::replace(&mut self.board.loose, loose);
         let fitted = self.ended(fitted)?;
-        let worse = surely_worse(&self.judged(&fitted.blocks), &self.judged(&self.best.blocks));
+        let (with, last) = (self.judged(&fitted.blocks), self.judged(&self.best.blocks));
+        // What is worth fewer squared standard errors is no effect, however surely it is told: where windows start may be it.
+        let told = || with.gained(&last) > LEAST && self.evidence(&fitted, &self.best) > TELLS;
+        let worse = surely_worse(&with, &last) || told();
         let mut others = rig.free.iter().filter(|own| *own != name && !own.contains('.'));
         let alone = self.board.strayed(&fitted).is_empty()
             && is_far(&fitted.rig, rig, name)
             && others.all(|own| strays_by(&fitted.rig, rig, own) < TOO_FAR);
-        let worse = worse || self.evidence(&fitted, &self.best) > TELLS;
         if worse || !alone || self.leaves(&fitted) > MORE {
             self.board.loose = before;
             return Ok(None);
