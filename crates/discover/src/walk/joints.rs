@@ -4,6 +4,7 @@ use super::{
     ABOVE, DOWN, Walk,
     candidates::AFRESH,
     dips::{amounts, dips},
+    loads::{bouncing, is_soft, soft},
     named::NOTHING,
 };
 use crate::{
@@ -109,13 +110,17 @@ impl Walk<'_> {
         }
         near.sort_by(|(_, a), (_, b)| a.far.total_cmp(&b.far));
         let raced = LAWS.iter().flat_map(|kind| {
-            let own = |place: usize| {
+            // Soft teeth are far behind at first, or far ahead.
+            let own = |place: usize, soft: bool| {
                 let own = near.iter().filter(move |(p, a)| *p == place && a.kind == *kind);
+                let own = own.filter(move |(_, a)| is_soft(*kind, &a.rig) == soft);
                 own.take(FIRST).map(|(_, a)| (*kind, a.rig.clone()))
             };
-            let own: Vec<(Kind, Rig)> = (0..points.len()).flat_map(own).collect();
-            let both = [own, self.slow(*kind, context)];
-            both.map(|begun| board.raced(&begun, heats, &AFRESH)).into_iter().flatten()
+            let [stiff, soft] = [false, true].map(|soft| -> Vec<(Kind, Rig)> {
+                (0..points.len()).flat_map(|place| own(place, soft)).collect()
+            });
+            let all = [stiff, soft, self.slow(*kind, context)];
+            all.map(|begun| board.raced(&begun, heats, &AFRESH)).into_iter().flatten()
         });
         let alone = there(&self.best).map_or(f64::INFINITY, |best| board.far(&best));
         let least = match now.level() {
@@ -161,7 +166,10 @@ impl Walk<'_> {
             let along = |probe: &Vec<f64>| -> Vec<(Kind, Rig)> {
                 amounts.iter().map(|tried| one(*kind, probe, *tried)).collect()
             };
-            probes.iter().flat_map(along).collect()
+            let soft = soft(*kind, probes, context);
+            let bounces = |(kind, rig)| Some((kind, bouncing(kind, &rig, context)?));
+            let soft = soft.iter().flat_map(along).filter_map(bounces);
+            probes.iter().flat_map(along).chain(soft).collect()
         };
         lacking.iter().flat_map(each).collect()
     }

@@ -21,8 +21,15 @@ const SLOW: [f64; 2] = [2e-4, 5e-3];
 const SLOWED: f64 = 0.1;
 const LITTLE: f64 = 0.05;
 
-/// Teeth are begun with these damping ratios, where they are not what they are as a rule.
+/// Teeth are begun with these damping ratios, where they are not what they are as a rule; those of a load that drags as well
+/// with this one.
 const ZETAS: [f64; 2] = [0.15, 0.5];
+const ZETA: f64 = 0.3;
+
+/// Soft teeth give way within so many samples, under a load of so much of the motor's inertia: of three plays of three writers
+/// that were not found within 0.8 to 1.5 samples, under 0.5 to 1.
+const SOFT: f64 = 1.0;
+const HEAVY: f64 = 0.6;
 
 impl Walk<'_> {
     /// A joint with a load of another kind, and with that of another kind again for as long as it comes much nearer so: one
@@ -63,7 +70,31 @@ fn loads(joint: &Candidate, context: &Context) -> Vec<Rig> {
         let name = unasked(kind, rig, key);
         values.into_iter().filter_map(move |value| Some(spared(rig, &[(name.as_ref()?, value)])))
     };
-    begun.into_iter().flat_map(with).collect()
+    let more = [slower(kind, rig, context), bouncing(kind, rig, context)];
+    begun.into_iter().flat_map(with).chain(more.into_iter().flatten()).collect()
+}
+
+/// The shapes of these `probes` of a play with soft teeth and a heavy load, one for each place of the encoder.
+pub(super) fn soft(kind: Kind, probes: &[Vec<f64>], context: &Context) -> Vec<Vec<f64>> {
+    let mut all: Vec<Vec<f64>> = Vec::new();
+    for probe in probes.iter().filter(|_| kind == Kind::Backlash) {
+        let [.., rubs, _, encoder] = probe[..] else { continue };
+        if all.iter().all(|own| own[3] != encoder) {
+            all.push(vec![HEAVY, rubs, SOFT * context.sample_time, encoder]);
+        }
+    }
+    all
+}
+
+/// Whether `rig` has soft teeth.
+pub(super) fn is_soft(kind: Kind, rig: &Rig) -> bool {
+    rig.free.contains(&format!("{}.zeta", kind.about().name))
+}
+
+/// `rig` with a load of this kind that drags much and bounces off its teeth.
+pub(super) fn bouncing(kind: Kind, rig: &Rig, context: &Context) -> Option<Rig> {
+    let zeta = unasked(kind, rig, "zeta")?;
+    Some(spared(&slower(kind, rig, context)?, &[(&zeta, ZETA)]))
 }
 
 /// `rig` with viscous friction of the load, if an effect of this kind that it has holds one that does not drag yet.
@@ -79,7 +110,12 @@ fn slowed(kind: Kind, rig: &Rig, context: &Context) -> Option<Rig> {
     let value = |key: &str| rig.value(&format!("{name}.{key}")).unwrap_or(0.0);
     let hidden = kind == Kind::Backlash && value("encoder") > 1.5;
     let rubs = value("rubs") > LITTLE * context.force;
-    let drags = unasked(kind, rig, "drags").filter(|_| hidden && !rubs)?;
+    if hidden && !rubs { slower(kind, rig, context) } else { None }
+}
+
+/// `rig` with a load of this kind that drags much.
+fn slower(kind: Kind, rig: &Rig, context: &Context) -> Option<Rig> {
+    let drags = unasked(kind, rig, "drags")?;
     let drag = SLOWED * context.force / context.speed;
     let mut slowed = spared(rig, &[(&drags, drag)]);
     // Both together drag as it was found.
@@ -105,13 +141,13 @@ fn drag(context: &Context) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{SLOW, dragged, loads};
+    use super::{HEAVY, SLOW, SOFT, ZETA, dragged, is_soft, loads};
     use crate::{
         model::Candidate,
         walk::made::{context, rig, walk, with},
     };
     use identify::{
-        Hold,
+        Hold, Rig,
         effects::{Context, Kind},
         fit::{Data, Seen},
     };
@@ -179,11 +215,42 @@ mod tests {
             loads(&Candidate { kind, fitted }, &context).len()
         };
         let play = [1e-3, 0.2, 1e-6, 1e-3, 1.0];
-        // Three ways, a drag, two damping ratios of the teeth; a gear that gives way has none.
-        assert_eq!(many(Kind::Backlash, &play, &[]), 6);
-        assert_eq!(many(Kind::Backlash, &play, &["zeta"]), 4);
+        // Three ways, two drags, two damping ratios of the teeth, and both; a gear that gives way has no teeth.
+        assert_eq!(many(Kind::Backlash, &play, &[]), 8);
+        assert_eq!(many(Kind::Backlash, &play, &["zeta"]), 5);
         assert_eq!(many(Kind::Backlash, &play, &["zeta", "gives", "drags"]), 0);
-        assert_eq!(many(Kind::Compliance, &COMPLIANCE, &[]), 4);
+        assert_eq!(many(Kind::Compliance, &COMPLIANCE, &[]), 5);
+    }
+
+    #[test]
+    fn a_play_is_begun_with_soft_teeth_and_a_heavy_load_as_well() {
+        let data = crate::walk::made::data();
+        let walk = walk(&rig(2.0), &data, &[]);
+        let context = context(&walk);
+        let all = walk.tried(&walk.best, &context);
+        let soft: Vec<&Rig> =
+            all.iter().filter(|(kind, rig)| is_soft(*kind, rig)).map(|(_, rig)| rig).collect();
+        let amounts = Kind::Backlash.tried().len();
+        assert_eq!(soft.len(), amounts, "each amount once, for one place of the encoder");
+        for rig in soft {
+            let value = |key: &str| rig.value(&format!("backlash.{key}")).unwrap();
+            assert_eq!((value("ratio"), value("zeta")), (HEAVY, ZETA));
+            assert!((value("teeth") - SOFT * context.sample_time).abs() < 1e-12);
+            // Both together drag as it was found.
+            assert!((value("drags") + rig.value("sigma_2").unwrap() - 0.5).abs() < 1e-12);
+        }
+        assert_eq!(
+            super::soft(Kind::Compliance, &[vec![0.1; 4]], &context),
+            Vec::<Vec<f64>>::new()
+        );
+        // And once more where the load may be hidden.
+        let probes =
+            [vec![0.05, 0.1, 1.0, 1.0], vec![0.3, 0.2, 1.0, 2.0], vec![0.3, 0.3, 1.0, 2.0]];
+        let both = super::soft(Kind::Backlash, &probes, &context);
+        assert_eq!(
+            both.iter().map(|own| (own[1], own[3])).collect::<Vec<_>>(),
+            [(0.1, 1.0), (0.2, 2.0)]
+        );
     }
 
     #[test]
