@@ -16,7 +16,7 @@ const OFF: f64 = 0.02;
 const TOO_MANY: f64 = 5.0;
 
 /// More wrong values than this are not told one by one.
-const MOST: usize = 4;
+const MOST: usize = 8;
 
 /// A fitted model near its minimum.
 pub(crate) struct Minimum<'a> {
