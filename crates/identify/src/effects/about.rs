@@ -274,3 +274,20 @@ impl About {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::effects::{LAWS, Shape};
+
+    #[test]
+    fn an_equation_has_every_amount_and_every_shape_that_is_fitted() {
+        for about in LAWS.iter().map(|kind| kind.about()) {
+            // A second one of the same is told by the first, and of which form it is where the table is.
+            let told = |name: &str| about.equation.contains(name.trim_end_matches("_2"));
+            for key in about.keys.iter().filter(|key| key.shape != Shape::Spare) {
+                let said = key.name == "form" || told(key.name);
+                assert!(said, "{}: {} is not in \"{}\"", about.name, key.name, about.equation);
+            }
+        }
+    }
+}
