@@ -113,6 +113,9 @@ fn a_breach_of_each_rule_is_told() {
     let file =
         |name: &'static str, text: &'static str| move |root: &Path| add(&root.join(name), text);
     with(file("notes.txt", "x"), "notes.txt: the root holds only");
+    let other =
+        |root: &Path| replace(&root.join("README.md"), "| `tach_bias` |", "| `tacho_bias` |");
+    with(other, "its table of effects is not what");
     with(
         file("crates/report/Cargo.toml", "duhem.workspace = true\n"),
         "report may not depend on duhem",
