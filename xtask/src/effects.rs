@@ -1,12 +1,12 @@
 //! The library of effects that a model can lack.
 
 use crate::{exit::Exit, output};
-use identify::effects::{Key, LAWS, Measure, Shape};
+use identify::effects::{About, Key, LAWS, Measure, Shape};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// Prints the library: for people, as JSON, or as the table in the README.
-pub(crate) fn effects((as_json, markdown): (bool, bool)) -> Exit {
+pub(crate) fn effects(as_json: bool, markdown: bool) -> Exit {
     if as_json {
         output::line(&format!("{:#}", json!({ "format": record::FORMAT, "effects": all() })));
     } else if markdown {
@@ -18,29 +18,25 @@ pub(crate) fn effects((as_json, markdown): (bool, bool)) -> Exit {
 }
 
 fn all() -> Vec<Value> {
-    let keys = |keys: &[Key]| -> Vec<Value> {
-        let one = |key: &Key| {
-            let amount = key.shape == Shape::Amount;
-            json!({ "name": key.name, "units": key.measure.units(), "amount": amount, "usual": key.usual })
-        };
-        keys.iter().map(one).collect()
+    let key = |key: &Key| {
+        let amount = key.shape == Shape::Amount;
+        json!({ "name": key.name, "unit": unit(key), "amount": amount, "usual": key.usual })
     };
-    let one = |kind: &identify::effects::Kind| {
-        let about = kind.about();
+    let one = |about: &About| {
         json!({
-            "name": about.name, "physics": about.physics, "equation": about.equation, "parameters": keys(about.keys),
+            "name": about.name, "physics": about.physics, "equation": about.equation,
+            "parameters": about.keys.iter().map(key).collect::<Vec<Value>>(),
             "confused_with": about.confused, "separated_by": about.separated_by,
         })
     };
-    LAWS.iter().map(one).collect()
+    LAWS.iter().map(|kind| one(kind.about())).collect()
 }
 
 fn text() -> String {
     let mut text = String::new();
     for about in LAWS.iter().map(|kind| kind.about()) {
         let _ = writeln!(text, "{}\n  {}\n  {}", about.name, about.physics, about.equation);
-        let keys: Vec<String> = about.keys.iter().map(parameter).collect();
-        let _ = writeln!(text, "  parameters: {}", keys.join(", "));
+        let _ = writeln!(text, "  parameters: {}", parameters(about));
         if !about.confused.is_empty() {
             let confused = about.confused.join(", ");
             let _ = writeln!(text, "  confused with {confused}; apart by {}", about.separated_by);
@@ -53,22 +49,29 @@ fn text() -> String {
 pub(crate) fn table() -> String {
     let mut text = String::from("| effect | what it changes | parameters |\n|---|---|---|\n");
     for about in LAWS.iter().map(|kind| kind.about()) {
-        let keys: Vec<String> = about.keys.iter().map(parameter).collect();
         let equation = about.equation.replace('|', "\\|");
-        let _ = writeln!(text, "| `{}` | {equation} | {} |", about.name, keys.join(", "));
+        let _ = writeln!(text, "| `{}` | {equation} | {} |", about.name, parameters(about));
     }
     text
 }
 
-/// A parameter with its units, where it slides and where it turns, and what it is if it is not told.
-fn parameter(key: &Key) -> String {
-    let unit = match key.measure.units() {
-        _ if key.measure == Measure::Input => " [the input's unit]".to_owned(),
-        ["", _] => String::new(),
-        [slides, turns] if slides == turns => format!(" [{slides}]"),
-        [slides, turns] => format!(" [{slides} or {turns}]"),
+/// The parameters of an effect with their units, and what they are if they are not told.
+fn parameters(about: &About) -> String {
+    let one = |key: &Key| {
+        let unit = unit(key);
+        let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
+        let usual = key.usual.filter(|_| key.shape != Shape::Spare);
+        let usual = usual.map(|usual| format!(" = {usual}"));
+        format!("{}{unit}{}", key.name, usual.unwrap_or_default())
     };
-    let usual = key.usual.filter(|_| key.shape != Shape::Spare);
-    let usual = usual.map(|usual| format!(" = {usual}"));
-    format!("{}{unit}{}", key.name, usual.unwrap_or_default())
+    about.keys.iter().map(one).collect::<Vec<String>>().join(", ")
+}
+
+/// The unit of a parameter, where it slides and where it turns; none of a pure number.
+fn unit(key: &Key) -> String {
+    match key.measure.units() {
+        _ if key.measure == Measure::Input => "the input's unit".to_owned(),
+        [slides, turns] if slides == turns => slides.to_owned(),
+        [slides, turns] => format!("{slides} or {turns}"),
+    }
 }

@@ -50,7 +50,7 @@ fn run(cli: &Cli) -> Result<Exit, Failure> {
         Command::Show { name, json } => list::show(&root, name, *json),
         Command::Claims { markdown: true, .. } => claims::markdown(&root),
         Command::Claims { json, .. } => claims::claims(&root, *json),
-        Command::Effects { json, markdown } => Ok(effects::effects((*json, *markdown))),
+        Command::Effects { json, markdown } => Ok(effects::effects(*json, *markdown)),
         Command::CheckData(arguments) => check_data::check_data(arguments),
         Command::Bench(arguments) => bench::bench(&root, arguments),
         Command::Fit(arguments) => fit::fit(arguments),

@@ -45,7 +45,13 @@ pub(crate) fn with(fitted: &Fitted, scored: &Scored) -> Rig {
         .map(|(_, value)| *value)
         .collect();
     gram::with(&mut rig, scored.kind, &shapes, 0);
-    for key in about.keys.iter().filter(|key| key.shape == Shape::Fitted) {
+    // What there may be more of is asked for where it is not as usual.
+    let asked = |(key, value): &(&Key, &f64)| match key.shape {
+        Shape::Fitted => true,
+        Shape::Spare => key.usual != Some(**value),
+        _ => false,
+    };
+    for (key, _) in about.keys.iter().zip(&scored.values).filter(asked) {
         rig.free.push(format!("{}.{}", about.name, key.name));
     }
     for (key, value) in about.keys.iter().zip(&scored.values) {

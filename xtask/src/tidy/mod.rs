@@ -94,18 +94,12 @@ fn readme(root: &Path) -> Result<Vec<String>, Failure> {
         }
     }
     breaches.extend(equations::rules(root, &readme)?);
-    let table = claims::table(&claims::committed(root, &root.join("reports"))?);
-    if !readme.contains(&table) {
-        breaches.push(
-            "README.md: its table of claims is not what `cargo xtask claims --markdown` prints"
-                .to_owned(),
-        );
-    }
-    if !readme.contains(&effects::table()) {
-        breaches.push(
-            "README.md: its table of effects is not what `cargo xtask effects --markdown` prints"
-                .to_owned(),
-        );
+    let claims = claims::table(&claims::committed(root, &root.join("reports"))?);
+    for (of, table) in [("claims", claims), ("effects", effects::table())] {
+        if !readme.contains(&table) {
+            let command = format!("cargo xtask {of} --markdown");
+            breaches.push(format!("README.md: its table of {of} is not what `{command}` prints"));
+        }
     }
     let ci = read(&root.join(".ci/run"))?;
     for command in

@@ -4,7 +4,7 @@ use super::{
     ABOVE, DOWN, Walk,
     candidates::AFRESH,
     dips::{amounts, dips},
-    loads::{bouncing, is_soft, soft},
+    loads::{is_soft, lightened},
     named::NOTHING,
 };
 use crate::{
@@ -159,17 +159,15 @@ impl Walk<'_> {
         let shown = self.shown(context);
         let one = |kind: Kind, probe: &[f64], tried: f64| {
             let values = gram::tried(kind, probe, tried, context);
-            (kind, shared(model::with(point, &Scored::unscored(kind, values)), kind))
+            let rig = model::with(point, &Scored::unscored(kind, values));
+            (kind, shared(lightened(kind, rig), kind))
         };
         let each = |(kind, probes): &(Kind, Vec<Vec<f64>>)| -> Vec<(Kind, Rig)> {
             let amounts = amounts(*kind, shown);
             let along = |probe: &Vec<f64>| -> Vec<(Kind, Rig)> {
                 amounts.iter().map(|tried| one(*kind, probe, *tried)).collect()
             };
-            let soft = soft(*kind, probes, context);
-            let bounces = |(kind, rig)| Some((kind, bouncing(kind, &rig, context)?));
-            let soft = soft.iter().flat_map(along).filter_map(bounces);
-            probes.iter().flat_map(along).chain(soft).collect()
+            probes.iter().flat_map(along).collect()
         };
         lacking.iter().flat_map(each).collect()
     }

@@ -26,11 +26,6 @@ const LITTLE: f64 = 0.05;
 const ZETAS: [f64; 2] = [0.15, 0.5];
 const ZETA: f64 = 0.3;
 
-/// Soft teeth give way within so many samples, under a load of so much of the motor's inertia: of three plays of three writers
-/// that were not found within 0.8 to 1.5 samples, under 0.5 to 1.
-const SOFT: f64 = 1.0;
-const HEAVY: f64 = 0.6;
-
 impl Walk<'_> {
     /// A joint with a load of another kind, and with that of another kind again for as long as it comes much nearer so: one
     /// whose friction builds up on a way, that drags, or that bounces.
@@ -74,25 +69,13 @@ fn loads(joint: &Candidate, context: &Context) -> Vec<Rig> {
     begun.into_iter().flat_map(with).chain(more.into_iter().flatten()).collect()
 }
 
-/// The shapes of these `probes` of a play with soft teeth and a heavy load, one for each place of the encoder.
-pub(super) fn soft(kind: Kind, probes: &[Vec<f64>], context: &Context) -> Vec<Vec<f64>> {
-    let mut all: Vec<Vec<f64>> = Vec::new();
-    for probe in probes.iter().filter(|_| kind == Kind::Backlash) {
-        let [.., rubs, _, encoder] = probe[..] else { continue };
-        if all.iter().all(|own| own[3] != encoder) {
-            all.push(vec![HEAVY, rubs, SOFT * context.sample_time, encoder]);
-        }
-    }
-    all
-}
-
-/// Whether `rig` has soft teeth.
+/// Whether the teeth of `rig` are soft, so that they bounce.
 pub(super) fn is_soft(kind: Kind, rig: &Rig) -> bool {
     rig.free.contains(&format!("{}.zeta", kind.about().name))
 }
 
 /// `rig` with a load of this kind that drags much and bounces off its teeth.
-pub(super) fn bouncing(kind: Kind, rig: &Rig, context: &Context) -> Option<Rig> {
+fn bouncing(kind: Kind, rig: &Rig, context: &Context) -> Option<Rig> {
     let zeta = unasked(kind, rig, "zeta")?;
     Some(spared(&slower(kind, rig, context)?, &[(&zeta, ZETA)]))
 }
@@ -117,12 +100,18 @@ fn slowed(kind: Kind, rig: &Rig, context: &Context) -> Option<Rig> {
 fn slower(kind: Kind, rig: &Rig, context: &Context) -> Option<Rig> {
     let drags = unasked(kind, rig, "drags")?;
     let drag = SLOWED * context.force / context.speed;
-    let mut slowed = spared(rig, &[(&drags, drag)]);
-    // Both together drag as it was found.
-    if let Some(left) = rig.value("sigma_2").map(|both| both - drag).filter(|left| *left > 0.0) {
-        binding::set(&mut slowed, "sigma_2", left);
+    Some(lightened(kind, spared(rig, &[(&drags, drag)])))
+}
+
+/// `rig`, if its load drags, with so much less of the motor's own viscous friction: both together drag as it was found.
+pub(super) fn lightened(kind: Kind, mut rig: Rig) -> Rig {
+    let drags = format!("{}.drags", kind.about().name);
+    let drag = rig.value(&drags).filter(|_| rig.free.contains(&drags));
+    let left = drag.and_then(|drag| Some(rig.value("sigma_2")? - drag)).filter(|left| *left > 0.0);
+    if let Some(left) = left {
+        binding::set(&mut rig, "sigma_2", left);
     }
-    Some(slowed)
+    rig
 }
 
 /// The name of a value of an effect's load that `rig` has and that is not free yet.
@@ -141,7 +130,7 @@ fn drag(context: &Context) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{HEAVY, SLOW, SOFT, ZETA, dragged, is_soft, loads};
+    use super::{SLOW, ZETA, dragged, is_soft, loads};
     use crate::{
         model::Candidate,
         walk::made::{context, rig, walk, with},
@@ -156,6 +145,9 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
 
+    /// As a play has it (`backlash`).
+    const SOFT: f64 = 1.0;
+    const HEAVY: f64 = 0.6;
     const COMPLIANCE: [f64; 5] = [2.5e-4, 0.25, 0.02, 1e-6, 1.0];
     const DRAG: f64 = 0.5;
 
@@ -239,17 +231,17 @@ mod tests {
             // Both together drag as it was found.
             assert!((value("drags") + rig.value("sigma_2").unwrap() - 0.5).abs() < 1e-12);
         }
-        assert_eq!(
-            super::soft(Kind::Compliance, &[vec![0.1; 4]], &context),
-            Vec::<Vec<f64>>::new()
-        );
         // And once more where the load may be hidden.
-        let probes =
-            [vec![0.05, 0.1, 1.0, 1.0], vec![0.3, 0.2, 1.0, 2.0], vec![0.3, 0.3, 1.0, 2.0]];
-        let both = super::soft(Kind::Backlash, &probes, &context);
+        let soft = |kind: Kind, context: &Context| {
+            let probes = (kind.about().probes)(context).into_iter();
+            probes.filter(|own| own[2] == SOFT * context.sample_time).collect::<Vec<_>>()
+        };
+        assert_eq!(soft(Kind::Compliance, &context), Vec::<Vec<f64>>::new());
+        let hidden = Context { hidden: true, force: 10.0, ..context };
+        let both = soft(Kind::Backlash, &hidden);
         assert_eq!(
             both.iter().map(|own| (own[1], own[3])).collect::<Vec<_>>(),
-            [(0.1, 1.0), (0.2, 2.0)]
+            [(0.1, 1.0), (0.1, 2.0)]
         );
     }
 

@@ -3,6 +3,7 @@
 use super::{
     answer::{MORE, NEARLY_ALL, NOISY},
     exchange::kind_of,
+    given::off_by,
     named::MOST,
 };
 use crate::{
@@ -35,8 +36,8 @@ fn rebuilds(effects: &[Found], parameters: &[Moved]) -> bool {
         ["f_c", "f_s", "v_s"].contains(&name)
             || ["sigma", "k[", "delta["].iter().any(|of| name.starts_with(of))
     };
-    let same = |p: &Moved| (p.found.value / p.given).ln().abs() < ANOTHER;
-    let another = |p: &&Moved| p.moved && friction(&p.found.name) && !same(p);
+    let far = |p: &Moved| off_by(p.found.value, p.given) > ANOTHER;
+    let another = |p: &&Moved| p.moved && friction(&p.found.name) && far(p);
     let moved = parameters.iter().filter(another).count();
     let slips = |effect: &Found| ["maxwell_slip", "presliding"].contains(&effect.name);
     // Of several effects one wrong parameter is enough.

@@ -267,11 +267,13 @@ impl About {
     pub fn unit(&self, key: &str, rig: &Rig) -> &'static str {
         let Some(key) = self.keys.iter().find(|k| k.name == key) else { return "" };
         let turns = Plant::of(rig.kind).is_some_and(Plant::turns);
-        match ["current", "voltage"].iter().find(|c| rig.channels.contains_key(**c)) {
-            Some(&"current") if key.measure == Measure::Input => "A",
-            Some(_) if key.measure == Measure::Input => "V",
-            _ => key.measure.units()[usize::from(turns)],
+        let unit = key.measure.units()[usize::from(turns)];
+        if key.measure == Measure::Input {
+            let seen = |(channel, unit)| rig.channels.contains_key(channel).then_some(unit);
+            let own = [("current", "A"), ("voltage", "V")].into_iter().find_map(seen);
+            return own.unwrap_or(unit);
         }
+        unit
     }
 }
 
