@@ -209,4 +209,35 @@ mod tests {
         let near = rig(28.6);
         assert!(wrong(&Minimum { problem: &problem, x: &x, curvature }, &near).is_empty());
     }
+    #[test]
+    fn all_values_that_are_wrong_are_told_where_they_are_not_more_than_eight() {
+        let rig = |times: f64| {
+            let [inertia, f_c, f_s, v_s] = [16.0, 19.0, 29.0, 0.01].map(|value| times * value);
+            let [sigma_0, sigma_1, sigma_2] = [1e6, 5e3, 120.0].map(|value| times * value);
+            let text = format!(
+                "title = \"a\"\n[plant]\nkind = \"axis\"\ninertia = {inertia:?}\ngain = 35.0\n[friction]\n\
+                 name = \"lugre\"\nf_c = {f_c:?}\nf_s = {f_s:?}\nv_s = {v_s:?}\nsigma_0 = {sigma_0:?}\n\
+                 sigma_1 = {sigma_1:?}\nsigma_2 = {sigma_2:?}\n[fit]\nfree = [\"inertia\", \"f_c\", \"v_s\", \
+                 \"sigma_0\", \"sigma_1\", \"sigma_2\"]\n[channels]\ntime = \"t\"\nvoltage = \"u\"\nposition = \"q\"\n"
+            );
+            Rig::parse(&text).unwrap()
+        };
+        let time: Vec<f64> = (0..400).map(|i| 0.005 * f64::from(i)).collect();
+        let wave: Vec<f64> = time.iter().map(|t| (3.0 * t).sin()).collect();
+        let position = Seen::new("position", wave.clone(), 0.0);
+        let data = Data::driven(time, wave, Hold::ZeroOrder, position);
+        let fitted = rig(1.0);
+        let problem = Problem::of(&fitted, &data).unwrap();
+        let x = starts::nominal(&problem);
+        // Each is known to a millionth.
+        let curvature = DMatrix::from_diagonal_element(x.len(), x.len(), 1e12);
+        let told = |given: &Rig| {
+            let minimum = Minimum { problem: &problem, x: &x, curvature: curvature.clone() };
+            let mut places = wrong(&minimum, given);
+            places.sort_unstable();
+            places
+        };
+        assert_eq!(told(&rig(0.8)), (0..6).collect::<Vec<_>>());
+        assert!(told(&rig(1.01)).is_empty(), "no further off than given values are");
+    }
 }

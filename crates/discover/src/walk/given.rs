@@ -219,6 +219,19 @@ mod tests {
     }
 
     #[test]
+    fn an_effect_that_is_hardly_there_does_no_better_however_surely_it_is_told() {
+        // A fortieth of the drag that there is changes the right thing, and next to nothing.
+        let data = taken(|_, v| 0.012 * v * v.abs());
+        let off = given(0.8);
+        let mut walk = walk(&off, &data, &[]);
+        let little = with(&given(0.5), Kind::QuadraticDrag, &[3e-4]);
+        walk.best = walk.board.judged(&little, None).unwrap();
+        let other = walk.board.judged(&given(0.5), None).unwrap();
+        assert!(walk.evidence(&other, &walk.best) > super::TELLS);
+        assert!(walk.wrong_given(&off, &mut vec![found("maxwell_slip")]).unwrap().is_some());
+    }
+
+    #[test]
     fn a_value_with_which_a_free_one_goes_far_is_not_wrong_by_itself() {
         let wrong = |mass: f64| {
             let data = taken(|_, _| 0.0);
