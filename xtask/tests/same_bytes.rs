@@ -5,6 +5,7 @@ mod common;
 use common::{Project, REAL, difference};
 use std::{
     fs,
+    path::PathBuf,
     process::{Command, Stdio},
     thread,
     time::{Duration, Instant},
@@ -162,8 +163,19 @@ fn an_interrupted_run_ends_with_5_and_is_simply_started_again() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("the built program");
-    // Not before the first record: the program has to be listening.
-    while project.files("target/duhem/records").is_empty() {
+    // Not before the first record: the program has to be listening. Only names are asked for: what it writes is under another
+    // one until it is whole, which may be gone before it can be opened.
+    let has_a_record = || {
+        let below = |folder: PathBuf| {
+            fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path())
+        };
+        let records = project.path().join("target/duhem/records");
+        below(records)
+            .flat_map(below)
+            .any(|path| path.extension().is_some_and(|ending| ending == "json"))
+    };
+    while !has_a_record() {
+        assert_eq!(child.try_wait().unwrap(), None, "it ended before it wrote a record");
         thread::sleep(Duration::from_millis(5));
     }
     let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status();
