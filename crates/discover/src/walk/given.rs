@@ -224,9 +224,14 @@ mod tests {
         let data = taken(|_, v| 0.012 * v * v.abs());
         let off = given(0.8);
         let mut walk = walk(&off, &data, &[]);
-        let little = with(&given(0.5), Kind::QuadraticDrag, &[3e-4]);
-        walk.best = walk.board.judged(&little, None).unwrap();
-        let other = walk.board.judged(&given(0.5), None).unwrap();
+        let free = vec!["mass".to_owned(), "sigma_2".to_owned()];
+        let fit = |rig: Rig| {
+            let rig = Rig { free: free.clone(), ..rig };
+            walk.board.fit(&rig, None, &crate::walk::REFIT).unwrap()
+        };
+        let other = fit(given(0.5));
+        let little = fit(with(&given(0.5), Kind::QuadraticDrag, &[3e-4]));
+        walk.best = little;
         assert!(walk.evidence(&other, &walk.best) > super::TELLS);
         assert!(walk.wrong_given(&off, &mut vec![found("maxwell_slip")]).unwrap().is_some());
     }

@@ -110,15 +110,7 @@ impl Walk<'_> {
         }
         near.sort_by(|(_, a), (_, b)| a.far.total_cmp(&b.far));
         let raced = LAWS.iter().flat_map(|kind| {
-            // Soft teeth are far behind at first, or far ahead.
-            let own = |place: usize, soft: bool| {
-                let own = near.iter().filter(move |(p, a)| *p == place && a.kind == *kind);
-                let own = own.filter(move |(_, a)| is_soft(*kind, &a.rig) == soft);
-                own.take(FIRST).map(|(_, a)| (*kind, a.rig.clone()))
-            };
-            let [stiff, soft] = [false, true].map(|soft| -> Vec<(Kind, Rig)> {
-                (0..points.len()).flat_map(|place| own(place, soft)).collect()
-            });
+            let [stiff, soft] = firsts(&near, points.len(), *kind);
             let all = [stiff, soft, self.slow(*kind, context)];
             all.map(|begun| board.raced(&begun, heats, &AFRESH)).into_iter().flatten()
         });
@@ -243,6 +235,17 @@ impl Walk<'_> {
     }
 }
 
+/// The first ones of a kind beside each of so many models, of all in the order in which they leave little: with stiff teeth, and
+/// with soft ones, which are far behind these before they are fitted, or far ahead.
+fn firsts(near: &[(usize, Ahead)], models: usize, kind: Kind) -> [Vec<(Kind, Rig)>; 2] {
+    let own = |place: usize, soft: bool| {
+        let own = near.iter().filter(move |(p, a)| *p == place && a.kind == kind);
+        let own = own.filter(move |(_, a)| is_soft(kind, &a.rig) == soft);
+        own.take(FIRST).map(|(_, a)| (kind, a.rig.clone()))
+    };
+    [false, true].map(|soft| (0..models).flat_map(|place| own(place, soft)).collect())
+}
+
 /// A model whose load rubs, with so much less of the motor's own friction: both together rub as it was found, and a search
 /// that begins with more than that hands none of it over.
 fn shared(mut rig: Rig, kind: Kind) -> Rig {
@@ -266,8 +269,8 @@ fn shared(mut rig: Rig, kind: Kind) -> Rig {
 
 #[cfg(test)]
 mod tests {
-    use super::shared;
-    use crate::walk::made;
+    use super::{FIRST, firsts, shared};
+    use crate::{board::Ahead, walk::made};
     use identify::{
         Rig,
         effects::Kind,
@@ -300,6 +303,20 @@ mod tests {
         let level = walk.judged(&walk.best.blocks).level();
         let begun: Vec<_> = walk.begun(&context).iter().map(|c| c.kind).collect();
         assert!(level > super::CLEARLY && begun.is_empty(), "{level}: {begun:?}");
+    }
+
+    #[test]
+    fn soft_teeth_are_begun_with_however_many_stiff_ones_leave_less() {
+        let play = [1e-3, 0.2, 0.3, 1e-3];
+        let stiff = made::with(&made::rig(2.0), Kind::Backlash, &play);
+        let mut soft = stiff.clone();
+        soft.free.push("backlash.zeta".to_owned());
+        let of = |rig: &Rig| Ahead { far: 0.0, kind: Kind::Backlash, place: 0, rig: rig.clone() };
+        let mut near: Vec<(usize, Ahead)> = (0..20).map(|i| (i % 2, of(&stiff))).collect();
+        near.extend([(0, of(&soft)), (1, of(&soft))]);
+        let [begun, bouncing] = firsts(&near, 2, Kind::Backlash).map(|of| of.len());
+        assert_eq!((begun, bouncing), (2 * FIRST, 2));
+        assert!(firsts(&near, 2, Kind::Compliance).iter().all(Vec::is_empty));
     }
 
     #[test]
