@@ -95,11 +95,17 @@ impl<const P: usize> Dual<P> {
 
     /// A function with the value `re` and the slope `by` here.
     fn chain(self, re: f64, by: f64) -> Self {
-        Self { re, eps: self.eps.map(|e| e * by) }
+        self.with(re, self, |e, _| e * by)
     }
 
-    fn with(self, re: f64, other: Self, eps: impl Fn(f64, f64) -> f64) -> Self {
-        Self { re, eps: std::array::from_fn(|i| eps(self.eps[i], other.eps[i])) }
+    // Plain loops: of `map` and `from_fn` of arrays some are called and not inlined, and copy the array for it.
+    #[inline]
+    fn with(mut self, re: f64, other: Self, eps: impl Fn(f64, f64) -> f64) -> Self {
+        self.re = re;
+        for (own, other) in self.eps.iter_mut().zip(&other.eps) {
+            *own = eps(*own, *other);
+        }
+        self
     }
 }
 
@@ -142,7 +148,7 @@ impl<const P: usize> Real for Dual<P> {
 impl<const P: usize> Neg for Dual<P> {
     type Output = Self;
     fn neg(self) -> Self {
-        Self { re: -self.re, eps: self.eps.map(|e| -e) }
+        self.with(-self.re, self, |e, _| -e)
     }
 }
 
