@@ -45,6 +45,9 @@ const BEHIND: f64 = 3.0;
 /// nothing it took 0.006 at most, on three in which a gear gives way beside another effect 0.009 at least.
 const GIVES: f64 = 0.008;
 
+/// A play is tried there where the model leaves so much: right models of records leave less as a rule.
+const PLAYS: f64 = 1.04;
+
 /// The windows of a block where that of the short ones lead to nothing, and what a record must show of a joint for them, in
 /// standard deviations of its displacement.
 const SHORTEST: usize = 16;
@@ -134,15 +137,16 @@ impl Walk<'_> {
         near.par_iter().filter_map(one).collect()
     }
 
-    /// A gear that gives way, where the model leaves little more than noise: the stiffness and load that go along best
-    /// with the model, fitted if that gains something. A play would be seen at once.
+    /// A gear that gives way, where the model leaves little more than noise, and a play where it leaves a little more than that:
+    /// the amount and load of each that go along best with the model, fitted if that gains something.
     pub(super) fn nearly_rigid(&self, context: &Context) -> Vec<Candidate> {
+        let now = self.judged(&self.best.blocks);
         let mut rigs = self.tried(&self.best, context);
-        rigs.retain(|(kind, _)| *kind == Kind::Compliance);
+        rigs.retain(|(kind, _)| *kind == Kind::Compliance || now.level() > PLAYS);
         let Ok((alone, all)) = self.board.ahead(&self.best, &rigs) else { return Vec::new() };
-        let nearest = all.into_iter().next().filter(|a| alone - a.far > GIVES);
-        let near = nearest.map(|a| (a.far, a.kind, a.rig)).into_iter().collect();
-        self.longer(near, (&self.judged(&self.best.blocks), context))
+        let nearest = |kind: &Kind| all.iter().find(|a| a.kind == *kind && alone - a.far > GIVES);
+        let near = LAWS.iter().filter_map(nearest).map(|a| (a.far, a.kind, a.rig.clone()));
+        self.longer(near.collect(), (&now, context))
     }
 
     /// The model with each of what does not begin smoothly, in each amount and shape at which it is tried.

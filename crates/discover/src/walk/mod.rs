@@ -115,8 +115,7 @@ struct End {
     other: Option<Hold>,
 }
 
-/// Looks for what the model `rig` lacks; whether the record is nearer with its input as in one of the `others`
-/// is asked on the way.
+/// Looks for what the model `rig` lacks, and asks whether the record is nearer with its input as in one of the `others`.
 fn walked(
     (rig, mut loose): (&Rig, Vec<(String, f64)>),
     data: &Data,
@@ -128,13 +127,14 @@ fn walked(
     let mut held = board::loosened(rig, &loose);
     let (mut board, mut refit) = nominal(&held, data, &loose, options.seed)?;
     // What is given and not free may be a little off; what is far off is not the refit's to mend.
-    let strayed = board.strayed_alone(&refit);
-    let strayed: Vec<_> = loose.extract_if(.., |(name, _)| strayed.contains(name)).collect();
-    let mut start = held.clone();
-    if !strayed.is_empty() {
+    let (mut strayed, mut start) = (Vec::new(), held.clone());
+    let mut names = board.strayed_alone(&refit);
+    while !names.is_empty() {
+        strayed.extend(loose.extract_if(.., |(name, _)| names.contains(name)));
         held = board::loosened(rig, &loose);
         start = board.all_but(&refit, &held);
         (board, refit) = nominal(&held, data, &loose, options.seed)?;
+        names = board.lone_pull(&refit).into_iter().collect();
     }
     let rig = &held;
     let channels = refit.blocks.first().map_or(1, Vec::len) as f64;

@@ -23,9 +23,14 @@ const APART: f64 = 0.25;
 /// What is slower than this share of the largest speed says nothing of friction in sliding.
 const SLOW: f64 = 0.05;
 
-/// Of so many waves a force, and a friction, that repeats is tried: parameters that are a little off make crests of
-/// their own, and of friction every wave is tried in several forms.
-const TRIED: [usize; 2] = [WAVES, 2];
+/// Of so many waves a force, and a friction, that repeats is tried: of those of which a record shows most, for parameters that
+/// are a little off make crests of their own, and of those that stand out most from the waves around; of friction every wave
+/// is tried in several forms.
+const TRIED: [[usize; 2]; 2] = [[WAVES - 2, 2], [2, 1]];
+
+/// So many waves that were tried on either side are around one. What an encoder's noise leaves grows with the frequency, and the
+/// short waves that it shows most of say nothing.
+const AROUND: usize = 24;
 
 impl Walk<'_> {
     /// The sizes of the record with the waves that a model leaves.
@@ -51,13 +56,20 @@ pub(super) fn waves(board: &Board<'_>, fitted: &Fitted, context: &Context) -> [[
     })
 }
 
-/// The largest of the local maxima, so `many`.
-fn crests(at: &[f64], gains: &[f64], many: usize) -> [f64; WAVES] {
+/// Of the local maxima so many that are the largest, and so many more that are largest of what is usual around.
+fn crests(at: &[f64], gains: &[f64], [largest, sharpest]: [usize; 2]) -> [f64; WAVES] {
     let own = |i: usize| gains.get(i).copied().unwrap_or(0.0);
     let crest = |i: &usize| (*i == 0 || own(*i) >= own(i - 1)) && own(*i) > own(i + 1);
+    let usual = |i: usize| {
+        let mut near = gains[i.saturating_sub(AROUND)..(i + AROUND + 1).min(gains.len())].to_vec();
+        near.sort_by(f64::total_cmp);
+        near[near.len() / 2].max(f64::MIN_POSITIVE)
+    };
     let mut all: Vec<usize> = (0..gains.len()).filter(crest).collect();
     all.sort_by(|a, b| gains[*b].total_cmp(&gains[*a]));
-    all.truncate(many);
+    let mut rest = all.split_off(largest.min(all.len()));
+    rest.sort_by(|a, b| (own(*b) / usual(*b)).total_cmp(&(own(*a) / usual(*a))));
+    all.extend(rest.into_iter().take(sharpest));
     std::array::from_fn(|n| all.get(n).map_or(0.0, |i| at[*i]))
 }
 
@@ -166,11 +178,24 @@ mod tests {
                 (1..200).map(|i| APART * TAU * f64::from(i) / context.span).collect();
             let gains: Vec<[f64; 2]> = tried.iter().map(|k| way.gains(*k)).collect();
             let of = |kind: usize| gains.iter().map(|both| both[kind]).collect::<Vec<f64>>();
-            let [first, second, third, ..] = crests(&tried, &of(usize::from(friction)), 2);
+            let [first, second, third, ..] = crests(&tried, &of(usize::from(friction)), [1, 1]);
             assert!(second > 0.0 && third == 0.0, "as many as are asked for");
             assert!((first / k - 1.0).abs() < 0.5 * APART / 23.5, "{first} 1/m of {k}");
             let most = |kind| of(usize::from(kind)).into_iter().fold(0.0, f64::max);
             assert!(most(friction) > 5.0 * most(!friction), "the other kind shows less");
         }
+    }
+
+    #[test]
+    fn a_wave_that_stands_out_among_its_like_is_tried_however_many_show_more() {
+        // What noise leaves grows with the square of the wavenumber: of all the crests of the short ones each is larger.
+        let at: Vec<f64> = (1..=400).map(f64::from).collect();
+        let noise = |k: &f64| 1e-4 * k * k * (1.0 + 0.5 * (2.1 * k).sin());
+        let mut gains: Vec<f64> = at.iter().map(noise).collect();
+        gains[59] += 6.0;
+        assert!(crests(&at, &gains, [5, 0]).iter().all(|k| *k != 60.0));
+        let all = crests(&at, &gains, [4, 2]);
+        assert_eq!(all[4], 60.0, "{all:?}");
+        assert!(all[..4].iter().all(|k| *k > 380.0) && all[5] != all[4]);
     }
 }

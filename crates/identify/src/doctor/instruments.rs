@@ -3,6 +3,7 @@
 use super::series::{longest_run, n, noise, quantile, quantum};
 use super::{Facts, Findings, Series, examine_values};
 use crate::recording::{FEWEST_ROWS, usable};
+use crate::rig::KINDS;
 
 /// A run of so many samples at the largest value may be saturation.
 const RUN: usize = 5;
@@ -107,7 +108,12 @@ fn saturation(series: &Series, facts: &Facts, findings: &mut Findings) {
                 n(extreme),
                 series.unit
             );
-            let remedy = "widen the range, or drive less, so that the extreme is measured";
+            let remedy = if KINDS.iter().any(|kind| kind.drives.contains(&series.name.as_str())) {
+                "if it is a command that its controller limits there, nothing is wrong; else widen the range, or \
+                 drive less, so that the extreme is measured"
+            } else {
+                "widen the range, or drive less, so that the extreme is measured"
+            };
             findings.problem("saturated", &series.name, text, remedy);
             findings.rows(first, first + length - 1);
         }

@@ -69,7 +69,7 @@ impl Limits<'_> {
             "maxwell-slip" => match self.rig.friction.parameters.0.get("delta")? {
                 Parameter::List(list) => {
                     let least = list.iter().copied().reduce(f64::min)?;
-                    Some((least, "the smallest delta"))
+                    Some((least, "min delta"))
                 }
                 Parameter::Scalar(_) => None,
             },
@@ -126,15 +126,15 @@ impl Limits<'_> {
         let grain = self.track.grain;
         if grain > z / 3.0 {
             let because = format!(
-                "the position's step or noise, {} {unit}, is above a third of the presliding deflection \
-                 {words} = {} {unit}",
+                "the position's step, or three times its noise, is {} {unit}, above a third of the presliding \
+                 deflection {words} = {} {unit}",
                 n(grain),
                 n(z)
             );
-            let next = format!(
-                "measure the position in steps of at most {} {unit}, or at the motor's shaft",
-                n(z / 10.0)
-            );
+            let geared = self.track.kind.geared();
+            let shaft = if geared { ", or at the motor's shaft" } else { "" };
+            let next =
+                format!("measure the position in steps of at most {} {unit}{shaft}", n(z / 10.0));
             self.cannot(names, &because, &next);
             return;
         }

@@ -20,7 +20,7 @@ impl Law for Backlash {
     const ABOUT: About = About {
         name: "backlash",
         physics: "The load follows the motor only when a gap is used up.",
-        equation: "load and motor touch beyond ±gap/2; the load has ratio of the motor's inertia, rubs and drags; encoder: 1 shows the load, 2 the motor; teeth: the time in which they give way",
+        equation: "load and motor, together M, touch beyond ±gap/2; the load has ratio of the motor's inertia, rubs and drags; encoder: 1 shows the load, 2 the motor, w always the motor; teeth: the time in which they give way",
         channel: Channel::Kinematics,
         keys: &[
             Key::positive("gap", Measure::Length, 0.8),

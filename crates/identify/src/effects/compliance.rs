@@ -10,7 +10,7 @@ impl Law for Compliance {
     const ABOUT: About = About {
         name: "compliance",
         physics: "The gear gives way like a spring between motor and load.",
-        equation: "load and motor joined by a spring of 1/compliance with a damping ratio, damping; the load has ratio of the motor's inertia, rubs and drags; encoder: 1 shows the load, 2 the motor",
+        equation: "load and motor, together M, joined by a spring of 1/compliance with a damping ratio, damping; the load has ratio of the motor's inertia, rubs and drags; encoder: 1 shows the load, 2 the motor, w always the motor",
         channel: Channel::Kinematics,
         keys: &[
             Key::positive("compliance", Measure::Flexibility, 1.0),

@@ -329,7 +329,7 @@ fn root(w_base: f64, kappa: f64, gamma: f64) -> f64 {
     let (p, q) = if gamma < 1.0 { (1.0 / gamma, 1.0) } else { (1.0, gamma) };
     let mut y = if gamma < 1.0 { target.powf(gamma) } else { target };
     for _ in 0..100 {
-        let (value, slope) = (y.powf(p), kappa * y.powf(q));
+        let (value, slope) = (power(y, p), kappa * power(y, q));
         let excess = value + slope - target;
         let steep = (p * value + q * slope) / y;
         let next = (y - excess / steep).max(0.0);
@@ -339,7 +339,12 @@ fn root(w_base: f64, kappa: f64, gamma: f64) -> f64 {
         }
         y = next;
     }
-    w_base.signum() * y.powf(p)
+    w_base.signum() * power(y, p)
+}
+
+/// y to the power of `p`, which often is 1 and takes as long then.
+fn power(y: f64, p: f64) -> f64 {
+    if p == 1.0 { y } else { y.powf(p) }
 }
 
 #[cfg(test)]
