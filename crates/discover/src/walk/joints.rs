@@ -142,7 +142,7 @@ impl Walk<'_> {
     pub(super) fn nearly_rigid(&self, context: &Context) -> Vec<Candidate> {
         let now = self.judged(&self.best.blocks);
         let mut rigs = self.tried(&self.best, context);
-        rigs.retain(|(kind, _)| *kind == Kind::Compliance || now.level() > PLAYS);
+        rigs.retain(|(kind, _)| begun_near(*kind, now.level()));
         let Ok((alone, all)) = self.board.ahead(&self.best, &rigs) else { return Vec::new() };
         let nearest = |kind: &Kind| all.iter().find(|a| a.kind == *kind && alone - a.far > GIVES);
         let near = LAWS.iter().filter_map(nearest).map(|a| (a.far, a.kind, a.rig.clone()));
@@ -239,6 +239,11 @@ impl Walk<'_> {
     }
 }
 
+/// Whether a joint of this kind is begun where a model leaves so little.
+fn begun_near(kind: Kind, level: f64) -> bool {
+    kind == Kind::Compliance || level > PLAYS
+}
+
 /// The first ones of a kind beside each of so many models, of all in the order in which they leave little: with stiff teeth, and
 /// with soft ones, which are far behind these before they are fitted, or far ahead.
 fn firsts(near: &[(usize, Ahead)], models: usize, kind: Kind) -> [Vec<(Kind, Rig)>; 2] {
@@ -273,7 +278,7 @@ fn shared(mut rig: Rig, kind: Kind) -> Rig {
 
 #[cfg(test)]
 mod tests {
-    use super::{FIRST, firsts, shared};
+    use super::{FIRST, begun_near, firsts, shared};
     use crate::{board::Ahead, walk::made};
     use identify::{
         Rig,
@@ -307,6 +312,12 @@ mod tests {
         let level = walk.judged(&walk.best.blocks).level();
         let begun: Vec<_> = walk.begun(&context).iter().map(|c| c.kind).collect();
         assert!(level > super::CLEARLY && begun.is_empty(), "{level}: {begun:?}");
+    }
+
+    #[test]
+    fn a_play_is_begun_with_near_the_floor_too_but_not_on_it() {
+        let begun = |level: f64| [Kind::Compliance, Kind::Backlash].map(|k| begun_near(k, level));
+        assert_eq!((begun(1.02), begun(1.07)), ([true, false], [true, true]));
     }
 
     #[test]

@@ -85,10 +85,21 @@ impl Walk<'_> {
 #[cfg(test)]
 mod tests {
     use crate::{
-        board::loosened,
-        walk::made::{data, rig, walk, with},
+        board::{loose, loosened},
+        verdict::Options,
+        walk::{
+            made::{data, rig, walk, with},
+            walked,
+        },
     };
-    use identify::effects::Kind;
+    use identify::{
+        Hold, Rig,
+        effects::Kind,
+        fit::{Data, Seen},
+    };
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
 
     #[test]
     fn what_strays_is_held_where_it_was_given() {
@@ -140,5 +151,52 @@ mod tests {
         assert_eq!((&walk.board.loose[..], &walk.short.loose[..]), (&own[..], &own[..]));
         let mass = walk.best.rig.value("mass").unwrap();
         assert!((mass - 2.0).abs() < 0.005, "{mass} kg");
+    }
+
+    /// A drum with viscous friction, its two springs drawn to so many newtons and said to be drawn to 12 N.
+    const DRUM: &str = "title = \"a drum\"\n[plant]\nkind = \"drum\"\ninertia = 0.01\nradius = 0.05\nk_1 = 150.0\n\
+        k_2 = 150.0\nf_10 = 12.0\nf_20 = 12.0\nmotor_constant = 2.0\ngear_ratio = 10.0\n[friction]\nname = \"none\"\n\
+        sigma_2 = 0.02\n[fit]\nfree = [\"sigma_2\"]\n[channels]\ntime = \"t\"\ncurrent = \"i\"\nangle = \"q\"\n\
+        force_1 = \"a\"\nforce_2 = \"b\"\n";
+
+    fn drum(pulls: [f64; 2]) -> Data {
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
+        let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();
+        let angle = |t: f64| 0.3 * (2.0 * t).sin() + 0.1 * (5.0 * t).sin();
+        let [one, other] = [
+            |pull: f64, q: f64| pull + 150.0 * 0.05 * q,
+            |pull: f64, q: f64| pull - 150.0 * 0.05 * q,
+        ];
+        let current = time.iter().map(|t| {
+            let (q, slow, fast) = (angle(*t), 2.0 * t, 5.0 * t);
+            let v = 0.3 * 2.0 * slow.cos() + 0.1 * 5.0 * fast.cos();
+            let v_dot = -0.3 * 4.0 * slow.sin() - 0.1 * 25.0 * fast.sin();
+            (0.01 * v_dot + 0.02 * v + 0.05 * (one(pulls[0], q) - other(pulls[1], q))) / 2.0
+        });
+        let current = current.collect();
+        let mut seen = |name: &str, noisy: f64, of: &dyn Fn(f64) -> f64| {
+            Seen::new(name, time.iter().map(|t| of(*t) + noisy * noise()).collect(), 0.0)
+        };
+        let loads = [
+            seen("force_1", 0.1, &|t| one(pulls[0], angle(t))),
+            seen("force_2", 0.1, &|t| other(pulls[1], angle(t))),
+        ];
+        let shown = seen("angle", 1e-3, &angle);
+        Data { loads: Some(loads), ..Data::driven(time, current, Hold::Linear, shown) }
+    }
+
+    #[test]
+    fn of_two_springs_that_are_given_as_one_the_one_that_is_not_so_is_told() {
+        let rig = Rig::parse(DRUM).unwrap();
+        for (pulls, cable) in [([12.1, 12.0], 2.0), ([12.0, 12.1], 3.0)] {
+            let data = drum(pulls);
+            let found = walked((&rig, loose(&rig)), &data, &[], &Options::default()).unwrap().found;
+            let value = |key: &str| found.rig.value(&format!("preload_asymmetry.{key}"));
+            let force =
+                value("force").expect("it is named") * if cable == 3.0 { -1.0 } else { 1.0 };
+            assert!((force - 0.1).abs() < 0.01, "{pulls:?}: {force} N");
+            assert!(found.chi_squared[2] < 1.1, "{:?}", found.chi_squared);
+        }
     }
 }
