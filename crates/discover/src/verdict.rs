@@ -4,7 +4,7 @@ use crate::maps::Of;
 use identify::{Hold, Rig, effects::Kind};
 
 /// What is asked for.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Options {
     /// The seed of the floor's perturbations.
     pub seed: u64,
@@ -12,11 +12,22 @@ pub struct Options {
     pub most: usize,
     /// How many effects of the screen are refitted in full.
     pub short_list: usize,
+    /// Who is told how far the search has come, line by line; it may take minutes.
+    pub told: Option<fn(&str)>,
+}
+
+impl Options {
+    /// Tells how far the search has come, where somebody listens.
+    pub(crate) fn tell(&self, what: impl FnOnce() -> String) {
+        if let Some(told) = self.told {
+            told(&what());
+        }
+    }
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 1, most: 3, short_list: 5 }
+        Self { seed: 1, most: 3, short_list: 5, told: None }
     }
 }
 

@@ -23,7 +23,11 @@ use page::Pictures;
 use record::write_whole;
 use serde_json::{Value, json};
 pub(crate) use shown::between;
-use std::{path::Path, time::Instant};
+use std::{
+    io::{IsTerminal, stderr},
+    path::Path,
+    time::Instant,
+};
 
 /// All that is told.
 struct Told {
@@ -75,7 +79,8 @@ pub(crate) fn discover(arguments: &DiscoverArgs) -> Result<Exit, Failure> {
         return Err(of_file(&arguments.record)(short));
     }
     let check = check(&rig, &arguments.record)?;
-    let options = Options { seed: arguments.seed, ..Options::default() };
+    let told = stderr().is_terminal().then_some(output::note as fn(&str));
+    let options = Options { seed: arguments.seed, told, ..Options::default() };
     let found = discover::discover(&rig, &data, &options).map_err(of_file(&arguments.record))?;
     // What the record tells of its input holds for all that is run from here on.
     let hold = found.hold;

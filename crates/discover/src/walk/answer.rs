@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     board::{Fitted, strays},
-    decide::Judged,
+    decide::{Judged, shrink},
     gram::Gram,
     screen,
     verdict::{Discovery, Found, Gap, Limit, Moved, Value, Verdict, name},
@@ -38,6 +38,17 @@ pub(super) const NEARLY_ALL: f64 = 0.99;
 pub(super) const WRONG: f64 = 0.08;
 
 impl Walk<'_> {
+    /// What the search has come to with what was `found` last, in a line.
+    pub(super) fn comes_to(&self, found: &[Found]) -> String {
+        let names: Vec<&str> = found.iter().map(|effect| effect.name).collect();
+        format!("with {} χ² {:.4}", names.join(" and "), self.judged(&self.best.blocks).level())
+    }
+
+    /// Whether what is named explains all but what noise that is not white may leave.
+    pub(super) fn explained(&self, level: f64) -> bool {
+        level < NOISY && shrink(self.refit, level) > NEARLY_ALL
+    }
+
     pub(super) fn answer(
         mut self,
         (rig, before, refit): (&Rig, &Fitted, &Fitted),
@@ -282,7 +293,10 @@ pub(super) fn moved(rig: &Rig, found: &Value) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Judged, Moved, Value, surely, surely_worse};
-    use crate::walk::made;
+    use crate::{
+        verdict::Options,
+        walk::{made, walked},
+    };
     use identify::{
         Hold, Rig,
         fit::{Data, Seen, simulate},
@@ -291,6 +305,7 @@ mod tests {
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
+    use std::sync::Mutex;
 
     /// A slide with this stiction force [N] and Stribeck velocity [m/s].
     fn bristles(f_s: f64, v_s: f64) -> Rig {
@@ -322,6 +337,18 @@ mod tests {
         let force = run.traces[0].after.iter().map(|f| f + 1e-3 * noise());
         data.force = Some(Seen::new("force", force.collect(), 0.0));
         data
+    }
+
+    static HEARD: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+    #[test]
+    fn who_listens_is_told_how_far_the_search_has_come() {
+        let listens: fn(&str) = |line| HEARD.lock().unwrap().push(line.to_owned());
+        let options = Options { told: Some(listens), ..Options::default() };
+        walked((&made::rig(2.0), Vec::new()), &made::data(), &[], &options).unwrap();
+        let heard = HEARD.lock().unwrap();
+        assert!(heard[0].starts_with("refitted it leaves χ² "), "{heard:?}");
+        assert!(heard[1].starts_with("with current_bias χ² "), "{heard:?}");
     }
 
     #[test]

@@ -43,6 +43,7 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
     let first = with(told.hold, &others)?;
     let (mut hold, mut found, mut asked) = (told.hold, first.found, first.other);
     while let Some(other) = asked {
+        options.tell(|| format!("once more, with hold = \"{}\" for the input", other.name()));
         others.retain(|data| data.hold != other);
         let next = with(other, &others)?;
         asked = next.other;

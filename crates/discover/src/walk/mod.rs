@@ -40,7 +40,6 @@ use crate::{
     screen::Scored,
     verdict::{Discovery, Found, Options, Ranked},
 };
-use answer::{NEARLY_ALL, NOISY};
 pub use holds::discover;
 use identify::{
     Hold, Rig,
@@ -166,6 +165,7 @@ fn walked(
     walk.near_the_floor(CLOSE_TO)?;
     let refit = walk.best.clone();
     walk.refit = walk.judged(&refit.blocks).level();
+    options.tell(|| format!("refitted it leaves χ² {:.4}", walk.refit));
     let context = walk.waved(&refit, &model::context(&walk.board, &refit));
     // To say how little of each would show.
     let start = Gram::of(&walk.board, &refit, (&context, true))?;
@@ -290,6 +290,7 @@ impl Walk<'_> {
             self.reclaim()?;
             self.hold_strayed(options.seed)?;
             self.origin = self.beside_given()?;
+            options.tell(|| self.comes_to(&found));
             effects.extend(found);
         }
         self.loosen_held();
@@ -369,11 +370,6 @@ impl Walk<'_> {
         }
         self.best = best.fitted.clone();
         Ok(Some(found))
-    }
-
-    /// Whether what is named explains all but what noise that is not white may leave.
-    fn explained(&self, level: f64) -> bool {
-        level < NOISY && shrink(self.refit, level) > NEARLY_ALL
     }
 
     /// Whether a candidate explains all that is missing.

@@ -60,16 +60,17 @@ pub(super) fn waves(board: &Board<'_>, fitted: &Fitted, context: &Context) -> [[
 fn crests(at: &[f64], gains: &[f64], [largest, sharpest]: [usize; 2]) -> [f64; WAVES] {
     let own = |i: usize| gains.get(i).copied().unwrap_or(0.0);
     let crest = |i: &usize| (*i == 0 || own(*i) >= own(i - 1)) && own(*i) > own(i + 1);
-    let usual = |i: usize| {
+    let sharp = |i: usize| {
         let mut near = gains[i.saturating_sub(AROUND)..(i + AROUND + 1).min(gains.len())].to_vec();
         near.sort_by(f64::total_cmp);
-        near[near.len() / 2].max(f64::MIN_POSITIVE)
+        own(i) / near[near.len() / 2].max(f64::MIN_POSITIVE)
     };
     let mut all: Vec<usize> = (0..gains.len()).filter(crest).collect();
     all.sort_by(|a, b| gains[*b].total_cmp(&gains[*a]));
-    let mut rest = all.split_off(largest.min(all.len()));
-    rest.sort_by(|a, b| (own(*b) / usual(*b)).total_cmp(&(own(*a) / usual(*a))));
-    all.extend(rest.into_iter().take(sharpest));
+    let rest = all.split_off(largest.min(all.len()));
+    let mut rest: Vec<(f64, usize)> = rest.into_iter().map(|i| (sharp(i), i)).collect();
+    rest.sort_by(|a, b| b.0.total_cmp(&a.0));
+    all.extend(rest.into_iter().take(sharpest).map(|(_, i)| i));
     std::array::from_fn(|n| all.get(n).map_or(0.0, |i| at[*i]))
 }
 
