@@ -4,7 +4,7 @@ use super::{
     ABOVE, DOWN, Walk,
     candidates::AFRESH,
     dips::{amounts, dips},
-    loads::{is_soft, lightened},
+    loads::{is_soft, lightened, shared},
     named::NOTHING,
 };
 use crate::{
@@ -255,36 +255,11 @@ fn firsts(near: &[(usize, Ahead)], models: usize, kind: Kind) -> [Vec<(Kind, Rig
     [false, true].map(|soft| (0..models).flat_map(|place| own(place, soft)).collect())
 }
 
-/// A model whose load rubs, with so much less of the motor's own friction: both together rub as it was found, and a search
-/// that begins with more than that hands none of it over.
-fn shared(mut rig: Rig, kind: Kind) -> Rig {
-    let load = rig.value(&format!("{}.rubs", kind.about().name)).unwrap_or(0.0);
-    let left = 1.0 - load / binding::model::<f64>(&rig, &|_| None).contact.level();
-    // A motor that rubs less than its load has none to hand over.
-    if !(left > 0.0 && left < 1.0) {
-        return rig;
-    }
-    let together = rig.clone();
-    for name in &together.free {
-        let Some(value) = together.value(name) else { continue };
-        match name.as_str() {
-            "f_c" | "f_s" => binding::set(&mut rig, name, value - load),
-            spring if spring.starts_with("k[") => binding::set(&mut rig, name, left * value),
-            _ => {}
-        }
-    }
-    rig
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{FIRST, begun_near, firsts, shared};
+    use super::{FIRST, begun_near, firsts};
     use crate::{board::Ahead, walk::made};
-    use identify::{
-        Rig,
-        effects::Kind,
-        fit::{Data, binding},
-    };
+    use identify::{Rig, effects::Kind, fit::Data};
 
     #[test]
     fn what_does_not_begin_smoothly_is_looked_for_first_or_beside_what_was() {
@@ -332,45 +307,6 @@ mod tests {
         let [begun, bouncing] = firsts(&near, 2, Kind::Backlash).map(|of| of.len());
         assert_eq!((begun, bouncing), (2 * FIRST, 2));
         assert!(firsts(&near, 2, Kind::Compliance).iter().all(Vec::is_empty));
-    }
-
-    #[test]
-    fn what_the_load_rubs_the_motor_does_not() {
-        let of = |friction: &str, free: &str, rubs: f64| {
-            let text = format!(
-                "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n[friction]\n\
-                 {friction}\nsigma_2 = 0.5\n[fit]\nfree = [{free}]\n[channels]\ntime = \"t\"\nforce = \"f\"\n\
-                 position = \"x\"\n"
-            );
-            let play = [1e-3, 0.2, rubs, 1e-3];
-            let rig = made::with(&Rig::parse(&text).unwrap(), Kind::Backlash, &play);
-            shared(rig, Kind::Backlash)
-        };
-        let near = |rig: &Rig, name: &str, value: f64| {
-            let found = rig.value(name).unwrap();
-            assert!((found - value).abs() < 1e-12, "{name} of {found}, expected {value}");
-        };
-        let lugre =
-            "name = \"lugre\"\nf_c = 1.5\nf_s = 2.0\nv_s = 0.01\nsigma_0 = 1e3\nsigma_1 = 1.0";
-        let rig = of(lugre, "\"f_c\", \"f_s\"", 0.3);
-        near(&rig, "f_c", 1.2);
-        near(&rig, "f_s", 1.7);
-        // Equal, they stay so.
-        let rig = of(&lugre.replace("2.0", "1.5"), "\"f_c\", \"f_s\"", 0.3);
-        near(&rig, "f_c", 1.2);
-        near(&rig, "f_s", 1.2);
-        let springs = "name = \"maxwell-slip\"\nk = [1e3, 5e2]\ndelta = [1e-3, 2e-3]";
-        let rig = of(springs, "\"k[1]\", \"k[2]\"", 0.5);
-        near(&rig, "k[1]", 750.0);
-        let level = binding::model::<f64>(&rig, &|_| None).contact.level();
-        assert!((level + 0.5 - 2.0).abs() < 1e-12, "{level} N");
-        // A little is handed over, too.
-        let coulomb = "name = \"coulomb\"\nf_c = 1.5";
-        near(&of(coulomb, "\"f_c\"", 0.03), "f_c", 1.47);
-        // What is not free, and what is all of it, stays.
-        near(&of(coulomb, "\"sigma_2\"", 0.3), "f_c", 1.5);
-        near(&of(coulomb, "\"f_c\"", 1.6), "f_c", 1.5);
-        near(&of("name = \"none\"", "\"sigma_2\"", 0.3), "sigma_2", 0.5);
     }
 
     /// The load of 0.4 of 2 kg as in [`made::data`], driven through a gear that gives way by so much [m/N].

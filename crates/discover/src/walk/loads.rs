@@ -128,9 +128,30 @@ fn drag(context: &Context) -> f64 {
     DRAGS * context.force / context.speed
 }
 
+/// A model whose load rubs, with so much less of the motor's own friction: both together rub as it was found, and a search
+/// that begins with more than that hands none of it over.
+pub(super) fn shared(mut rig: Rig, kind: Kind) -> Rig {
+    let load = rig.value(&format!("{}.rubs", kind.about().name)).unwrap_or(0.0);
+    let left = 1.0 - load / binding::model::<f64>(&rig, &|_| None).contact.level();
+    // A motor that rubs less than its load has none to hand over.
+    if !(left > 0.0 && left < 1.0) {
+        return rig;
+    }
+    let together = rig.clone();
+    for name in &together.free {
+        let Some(value) = together.value(name) else { continue };
+        match name.as_str() {
+            "f_c" | "f_s" => binding::set(&mut rig, name, value - load),
+            spring if spring.starts_with("k[") => binding::set(&mut rig, name, left * value),
+            _ => {}
+        }
+    }
+    rig
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{SLOW, ZETA, dragged, is_soft, loads};
+    use super::{SLOW, ZETA, dragged, is_soft, loads, shared};
     use crate::{
         model::Candidate,
         walk::made::{context, rig, walk, with},
@@ -138,7 +159,7 @@ mod tests {
     use identify::{
         Hold, Rig,
         effects::{Context, Kind},
-        fit::{Data, Seen},
+        fit::{Data, Seen, binding},
     };
     use nalgebra::Complex;
     use rand::SeedableRng;
@@ -262,5 +283,44 @@ mod tests {
             let share = value("backlash.gap") / hidden.span;
             assert!(value("backlash.encoder") > 1.5 && (SLOW[0]..SLOW[1]).contains(&share));
         }
+    }
+
+    #[test]
+    fn what_the_load_rubs_the_motor_does_not() {
+        let of = |friction: &str, free: &str, rubs: f64| {
+            let text = format!(
+                "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 2.0\nstiffness = 3.0\n[friction]\n\
+                 {friction}\nsigma_2 = 0.5\n[fit]\nfree = [{free}]\n[channels]\ntime = \"t\"\nforce = \"f\"\n\
+                 position = \"x\"\n"
+            );
+            let play = [1e-3, 0.2, rubs, 1e-3];
+            let rig = with(&Rig::parse(&text).unwrap(), Kind::Backlash, &play);
+            shared(rig, Kind::Backlash)
+        };
+        let near = |rig: &Rig, name: &str, value: f64| {
+            let found = rig.value(name).unwrap();
+            assert!((found - value).abs() < 1e-12, "{name} of {found}, expected {value}");
+        };
+        let lugre =
+            "name = \"lugre\"\nf_c = 1.5\nf_s = 2.0\nv_s = 0.01\nsigma_0 = 1e3\nsigma_1 = 1.0";
+        let rig = of(lugre, "\"f_c\", \"f_s\"", 0.3);
+        near(&rig, "f_c", 1.2);
+        near(&rig, "f_s", 1.7);
+        // Equal, they stay so.
+        let rig = of(&lugre.replace("2.0", "1.5"), "\"f_c\", \"f_s\"", 0.3);
+        near(&rig, "f_c", 1.2);
+        near(&rig, "f_s", 1.2);
+        let springs = "name = \"maxwell-slip\"\nk = [1e3, 5e2]\ndelta = [1e-3, 2e-3]";
+        let rig = of(springs, "\"k[1]\", \"k[2]\"", 0.5);
+        near(&rig, "k[1]", 750.0);
+        let level = binding::model::<f64>(&rig, &|_| None).contact.level();
+        assert!((level + 0.5 - 2.0).abs() < 1e-12, "{level} N");
+        // A little is handed over, too.
+        let coulomb = "name = \"coulomb\"\nf_c = 1.5";
+        near(&of(coulomb, "\"f_c\"", 0.03), "f_c", 1.47);
+        // What is not free, and what is all of it, stays.
+        near(&of(coulomb, "\"sigma_2\"", 0.3), "f_c", 1.5);
+        near(&of(coulomb, "\"f_c\"", 1.6), "f_c", 1.5);
+        near(&of("name = \"none\"", "\"sigma_2\"", 0.3), "sigma_2", 0.5);
     }
 }
