@@ -207,10 +207,14 @@ impl Board<'_> {
         let place = |name: &str| problem.free.iter().position(|free| free.name == name);
         let names = PULLS.into_iter().chain(["k_1", "k_2"]);
         let places: Vec<usize> = names.filter_map(place).collect();
-        let by = |i: usize| match problem.free[i].name.as_str() {
-            name if name == PULLS[0] => problem.free[i].slope(problem.value(i, &fitted.x)),
-            name if name == PULLS[1] => -problem.free[i].slope(problem.value(i, &fitted.x)),
-            _ => 0.0,
+        let by = |i: usize| {
+            let free = &problem.free[i];
+            let side = match PULLS.iter().position(|pull| *pull == free.name) {
+                Some(0) => 1.0,
+                Some(_) => -1.0,
+                None => 0.0,
+            };
+            side * free.slope(problem.value(i, &fitted.x))
         };
         let by = DVector::from_iterator(places.len(), places.iter().map(|i| by(*i)));
         let slopes = slopes.select_columns(&places);

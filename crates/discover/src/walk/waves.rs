@@ -143,7 +143,7 @@ fn fall<const N: usize>(a: &SMatrix<f64, ALL, ALL>, b: &SVector<f64, ALL>) -> f6
 
 #[cfg(test)]
 mod tests {
-    use super::{APART, TAU, Way, crests};
+    use super::{APART, TAU, TRIED, Way, crests};
     use crate::{
         nudge::Left,
         walk::made::{context, data, rig, walk},
@@ -195,7 +195,7 @@ mod tests {
         let mut gains: Vec<f64> = at.iter().map(noise).collect();
         gains[59] += 6.0;
         assert!(crests(&at, &gains, [5, 0]).iter().all(|k| *k != 60.0));
-        let all = crests(&at, &gains, [4, 2]);
+        let all = crests(&at, &gains, TRIED[0]);
         assert_eq!(all[4], 60.0, "{all:?}");
         assert!(all[..4].iter().all(|k| *k > 380.0) && all[5] != all[4]);
     }
