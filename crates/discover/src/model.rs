@@ -240,6 +240,7 @@ pub(crate) fn context(board: &Board<'_>, fitted: &Fitted) -> Context {
         hidden: rig.kind == "axis",
         loaded: model.balance.stiffness != 0.0 || model.balance.gravity != 0.0,
         waves: [[0.0; WAVES]; 2],
+        halves: 0,
     }
 }
 
@@ -273,6 +274,7 @@ mod tests {
         hidden: false,
         loaded: true,
         waves: [[0.0; WAVES]; 2],
+        halves: 0,
     };
 
     /// Whether friction that grows by s sin kq + c cos kq is plausible on a record between -0.25 and 0.25 m.

@@ -200,6 +200,7 @@ fn every_form_in_which_an_effect_is_looked_for_is_one_that_it_may_take() {
         loaded: true,
         hidden: true,
         waves: [[20.0, 40.0, 0.0, 0.0, 0.0, 0.0], [30.0, 0.0, 0.0, 0.0, 0.0, 0.0]],
+        halves: 0,
     };
     let mut several = Vec::new();
     for kind in LAWS {

@@ -13,9 +13,14 @@ use identify::fit::{FitError, window::Window};
 /// So few blocks tell nothing of their spread.
 const BLOCKS: usize = 6;
 
+/// Twice the blocks tell it √2 times as surely. Half of them are what the effect was fitted to, and so tell for it without
+/// it, though by no more than a few: what all tell counts for so much, and for no more than so many times what the others do.
+const ALL: f64 = 0.75;
+const OTHERS: f64 = 1.5;
+
 impl Board<'_> {
-    /// Student's t of the amount of what the model `with` an effect changes of that `without` it, on the judging blocks,
-    /// which neither was fitted to.
+    /// Student's t of the amount of what the model `with` an effect changes of that `without` it: on the judging blocks,
+    /// which neither was fitted to, or, where all are surer, on all of them.
     pub(crate) fn evidence(&self, without: &Fitted, with: &Fitted) -> Result<f64, FitError> {
         let (without, with) = (self.rows(without)?, self.rows(with)?);
         let one = |(without, with): (&Vec<f64>, &Vec<f64>)| -> [f64; 2] {
@@ -26,10 +31,12 @@ impl Board<'_> {
             sums.map(|sum| worth * sum)
         };
         let parts: Vec<[f64; 2]> = without.iter().zip(&with).map(one).collect();
-        Ok(student(&parts))
+        let judging = parts.iter().zip(&self.trains).filter(|(_, trains)| !**trains);
+        let judging: Vec<[f64; 2]> = judging.map(|(part, _)| *part).collect();
+        Ok(surer(student(&judging), student(&parts)))
     }
 
-    /// The residuals of the judging blocks, those of the load cells after the others.
+    /// The residuals of the blocks, those of the load cells after the others.
     fn rows(&self, fitted: &Fitted) -> Result<Vec<Vec<f64>>, FitError> {
         let held = fitted.held();
         let problem = self.problem(&held, |_| true)?;
@@ -44,9 +51,13 @@ impl Board<'_> {
                 block.extend(&cell[window.first - first..window.end - first]);
             }
         }
-        let judging = rows.into_iter().zip(&self.trains).filter(|(_, trains)| !**trains);
-        Ok(judging.map(|(rows, _)| rows).collect())
+        Ok(rows)
     }
+}
+
+/// How sure what the `judging` blocks tell is with what `all` do [1].
+fn surer(judging: f64, all: f64) -> f64 {
+    judging.max((ALL * all).min(OTHERS * judging))
 }
 
 /// The mean square of residuals [1].
@@ -67,7 +78,7 @@ fn student(parts: &[[f64; 2]]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::student;
+    use super::{student, surer};
 
     #[test]
     fn where_all_blocks_tell_as_much_it_is_students_t_of_the_mean() {
@@ -76,6 +87,14 @@ mod tests {
         let t = crate::decide::student(&s);
         assert!((student(&parts) - t).abs() < 1e-12 * t, "{} and {t}", student(&parts));
         assert_eq!(student(&parts[..3]), 0.0, "too few");
+    }
+
+    #[test]
+    fn all_blocks_are_surer_than_half_of_them_but_not_without_these() {
+        assert_eq!(surer(5.0, 8.0), 6.0);
+        assert_eq!(surer(6.0, 7.0), 6.0);
+        assert_eq!(surer(2.0, 40.0), 3.0);
+        assert_eq!(surer(-2.0, 40.0), -2.0);
     }
 
     #[test]

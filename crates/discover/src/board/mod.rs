@@ -307,6 +307,16 @@ impl<'a> Board<'a> {
         self.judged(&fitted.rig, Some(&near.cloned().collect::<Vec<Piece>>()))
     }
 
+    /// A fitted model with each window begun where it was or where what was seen leads to, whichever is nearer: a start has
+    /// minima of its own, and those of two models must be the same before what they leave can be compared.
+    pub(crate) fn seated(&self, fitted: &Fitted) -> Result<Fitted, FitError> {
+        if self.imposed() {
+            return Ok(fitted.clone());
+        }
+        let seen = self.judged(&fitted.rig, None)?;
+        self.nearer(fitted, &seen.pieces)
+    }
+
     /// Counts the noise of the input anew, on its way through this model.
     pub(crate) fn refloor(&mut self, fitted: &Fitted, seed: u64) -> Result<(), FitError> {
         if self.imposed() {

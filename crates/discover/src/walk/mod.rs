@@ -1,6 +1,7 @@
 //! The way from a record to an answer.
 
 mod acts;
+mod alike;
 mod anew;
 mod answer;
 mod beam;
@@ -333,6 +334,7 @@ impl Walk<'_> {
         }
         let candidates = self.candidates(context, options, (round, start))?;
         let all = self.finely(candidates)?;
+        let (now, all) = self.begun_alike(now, all)?;
         let mut all = self.told_apart(&now, all, context)?;
         self.turned = self.turns(&all)?;
         if self.turned.is_some() {

@@ -16,7 +16,7 @@ pub(super) const SURE: f64 = 3.0;
 const CERTAIN: f64 = 3.5;
 
 /// Or if what it changes is there to so many, or to fewer where the sum of squares falls by that of ten standard errors.
-pub(super) const TELLS: f64 = 6.0;
+pub(super) const TELLS: f64 = 5.0;
 const TELLS_BESIDE: f64 = 10.0;
 const TELLS_MUCH: f64 = 4.0;
 const MUCH_TOLD: f64 = 100.0;
@@ -41,7 +41,7 @@ pub(super) const ALL: f64 = 0.9;
 /// It is no name either if the sum of squares on the judging blocks falls by less than so many squared standard errors, or
 /// than so many where what it changes tells that it is there.
 pub(super) const LEAST: f64 = 60.0;
-const TOLD: f64 = 30.0;
+const TOLD: f64 = 25.0;
 
 /// Beside an effect that leaves the floor or little more, another lowers it by at least this share: a little is left by
 /// every formula that is not the drive's own.
@@ -68,6 +68,8 @@ pub(super) struct Rated {
     pub(super) judged: Judged,
     /// How sure it is that it is there, by what it changes [1].
     pub(super) evidence: f64,
+    /// By how much the sum of squares is less with it on all blocks, fitted ones among them [1].
+    pub(super) together: f64,
     /// Whether its values are plausible.
     pub(super) plausible: bool,
 }
@@ -97,7 +99,9 @@ pub(super) fn found<'r>(
     };
     let rival = |r: &&Rated| {
         let as_good = r.judged.against(&best.judged) < UNSURE || as_much(r);
-        as_good && share(&r.judged) > CLOSE * gone
+        // Near the floor half of the blocks say little of which of two is nearer.
+        let near = now.level() < NOTHING && r.together > CLOSE * best.together;
+        as_good && (near || share(&r.judged) > CLOSE * gone)
     };
     let alike: Vec<&Rated> = [best].into_iter().chain(plausible.filter(rival)).collect();
     // What needs more numbers than a simpler one must be worth a name beside it; where much is left the little that a
@@ -182,7 +186,7 @@ mod tests {
     }
 
     fn rated(place: usize, judged: Judged) -> Rated {
-        Rated { candidate: candidate(place), judged, evidence: 0.0, plausible: true }
+        Rated { candidate: candidate(place), judged, evidence: 0.0, together: 0.0, plausible: true }
     }
 
     fn candidate(place: usize) -> Candidate {

@@ -221,7 +221,8 @@ impl<'a> Walk<'a> {
             let Some(place) = effects.iter().position(|effect| effect.name == name) else {
                 continue;
             };
-            let mut without = self.without(&self.best, effects[place].name)?;
+            let without = self.without(&self.best, effects[place].name)?;
+            let mut without = self.alike(without)?;
             let now = self.judged(&self.best.blocks);
             let needless = |without: &Fitted| {
                 let there = self.judged(&without.blocks);

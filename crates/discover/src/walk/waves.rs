@@ -1,7 +1,7 @@
 //! How long the waves are that a record shows along the way: a wave that is missed by half of its length over the whole
 //! way is not found from there, and there may be hundreds on it.
 
-use super::Walk;
+use super::{Walk, named::NOTHING};
 use crate::{
     board::{Board, Fitted},
     nudge::{self, Left},
@@ -32,19 +32,31 @@ const TRIED: [[usize; 2]; 2] = [[WAVES - 2, 2], [2, 1]];
 /// short waves that it shows most of say nothing.
 const AROUND: usize = 24;
 
+/// Near the floor, where the force that is left is all noise, so many half waves on the way are tried one after another.
+const HALVES: u32 = 32;
+
 impl Walk<'_> {
     /// The sizes of the record with the waves that a model leaves.
     pub(super) fn waved(&self, fitted: &Fitted, context: &Context) -> Context {
-        Context { waves: waves(&self.board, fitted, context), ..*context }
+        let near = self.judged(&fitted.blocks).level() < NOTHING;
+        let halves = if near { HALVES.min(2 * shortest(context)) } else { 0 };
+        Context { waves: waves(&self.board, fitted, context), halves, ..*context }
     }
+}
+
+/// So many waves on the whole way are as short as the samples show.
+fn shortest(context: &Context) -> u32 {
+    let many = context.span / (SAMPLES * context.sample_time * context.speed);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 400")]
+    let many = many.clamp(1.0, MOST) as u32;
+    many
 }
 
 /// The wavenumbers [1/m] of the waves that what a model leaves shows most of, for a force that repeats along the way
 /// and for a friction that does; 0 where there are none.
 pub(super) fn waves(board: &Board<'_>, fitted: &Fitted, context: &Context) -> [[f64; WAVES]; 2] {
     let Some(left) = nudge::left(&fitted.held(), board.data) else { return [[0.0; WAVES]; 2] };
-    let step = context.sample_time * context.speed;
-    let many = (context.span / (SAMPLES * step)).clamp(1.0, MOST);
+    let many = f64::from(shortest(context));
     let way = Way::of(&left, context);
     let each = TAU * APART / context.span;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1600")]
@@ -143,11 +155,32 @@ fn fall<const N: usize>(a: &SMatrix<f64, ALL, ALL>, b: &SVector<f64, ALL>) -> f6
 
 #[cfg(test)]
 mod tests {
-    use super::{APART, TAU, TRIED, Way, crests};
+    use super::{APART, HALVES, TAU, TRIED, Way, crests};
     use crate::{
         nudge::Left,
-        walk::made::{context, data, rig, walk},
+        walk::made::{BIAS, context, data, rig, walk, with},
     };
+    use identify::effects::{Context, Kind};
+
+    #[test]
+    fn near_the_floor_one_wave_after_another_is_tried_and_no_shorter_one_than_samples_show() {
+        let data = data();
+        let halves = |bias: f64| {
+            let walk = walk(&with(&rig(2.0), Kind::CurrentBias, &[bias]), &data, &[]);
+            let context = context(&walk);
+            let waved = walk.waved(&walk.best, &context);
+            let coarse = Context { sample_time: context.span / (16.0 * context.speed), ..context };
+            (waved, walk.waved(&walk.best, &coarse).halves)
+        };
+        let (near, coarse) = halves(BIAS);
+        assert_eq!((near.halves, coarse), (HALVES, 10), "five waves of three samples");
+        // Twenty-one and a half half waves are not far from one that is tried.
+        let k = 21.5 * 0.5 * TAU / near.span;
+        let probes = (Kind::Cogging.about().probes)(&near);
+        let apart = |probe: &Vec<f64>| (probe[0] - k).abs() * near.span;
+        assert!(probes.iter().map(apart).fold(f64::INFINITY, f64::min) < 0.26 * TAU);
+        assert_eq!(halves(0.0).0.halves, 0, "far from it");
+    }
 
     #[test]
     fn the_length_of_a_wave_is_seen_along_the_way_though_what_is_left_lags() {

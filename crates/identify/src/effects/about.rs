@@ -207,6 +207,8 @@ pub struct Context {
     pub hidden: bool,
     /// The wavenumbers that the record shows most of, in a force and in friction; 0 for none [1/m].
     pub waves: [[f64; WAVES]; 2],
+    /// Up to so many half waves on the whole way are tried one after another, if more than an effect asks for.
+    pub halves: u32,
 }
 
 impl Context {

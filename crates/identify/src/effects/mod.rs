@@ -196,8 +196,9 @@ fn wavenumbers(
     seen: [f64; WAVES],
 ) -> Vec<Vec<f64>> {
     let one = std::f64::consts::PI / context.span;
-    let most = one * f64::from(*halves.end());
-    let long = halves.map(|j| f64::from(j) * one);
+    let (least, most) = (*halves.start(), context.halves.max(*halves.end()));
+    let long = (least..=most).map(|j| f64::from(j) * one);
+    let most = one * f64::from(most);
     long.chain(seen.into_iter().filter(|k| *k > most)).map(|k| vec![k]).collect()
 }
 
