@@ -33,30 +33,28 @@ const TRIED: [[usize; 2]; 2] = [[WAVES - 2, 2], [2, 1]];
 const AROUND: usize = 24;
 
 /// Near the floor, where the force that is left is all noise, so many half waves on the way are tried one after another.
-const HALVES: u32 = 32;
+const HALVES: f64 = 32.0;
 
 impl Walk<'_> {
     /// The sizes of the record with the waves that a model leaves.
     pub(super) fn waved(&self, fitted: &Fitted, context: &Context) -> Context {
         let near = self.judged(&fitted.blocks).level() < NOTHING;
-        let halves = if near { HALVES.min(2 * shortest(context)) } else { 0 };
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 32")]
+        let halves = if near { (2.0 * shortest(context)).min(HALVES) as u32 } else { 0 };
         Context { waves: waves(&self.board, fitted, context), halves, ..*context }
     }
 }
 
 /// So many waves on the whole way are as short as the samples show.
-fn shortest(context: &Context) -> u32 {
-    let many = context.span / (SAMPLES * context.sample_time * context.speed);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 400")]
-    let many = many.clamp(1.0, MOST) as u32;
-    many
+fn shortest(context: &Context) -> f64 {
+    (context.span / (SAMPLES * context.sample_time * context.speed)).clamp(1.0, MOST)
 }
 
 /// The wavenumbers [1/m] of the waves that what a model leaves shows most of, for a force that repeats along the way
 /// and for a friction that does; 0 where there are none.
 pub(super) fn waves(board: &Board<'_>, fitted: &Fitted, context: &Context) -> [[f64; WAVES]; 2] {
     let Some(left) = nudge::left(&fitted.held(), board.data) else { return [[0.0; WAVES]; 2] };
-    let many = f64::from(shortest(context));
+    let many = shortest(context);
     let way = Way::of(&left, context);
     let each = TAU * APART / context.span;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1600")]
@@ -173,7 +171,7 @@ mod tests {
             (waved, walk.waved(&walk.best, &coarse).halves)
         };
         let (near, coarse) = halves(BIAS);
-        assert_eq!((near.halves, coarse), (HALVES, 10), "five waves of three samples");
+        assert_eq!((f64::from(near.halves), coarse), (HALVES, 10), "five waves of three samples");
         // Twenty-one and a half half waves are not far from one that is tried.
         let k = 21.5 * 0.5 * TAU / near.span;
         let probes = (Kind::Cogging.about().probes)(&near);
