@@ -22,6 +22,14 @@ impl Board<'_> {
     /// Student's t of the amount of what the model `with` an effect changes of that `without` it: on the judging blocks,
     /// which neither was fitted to, or, where all are surer, on all of them.
     pub(crate) fn evidence(&self, without: &Fitted, with: &Fitted) -> Result<f64, FitError> {
+        let parts = self.parts(without, with)?;
+        let judging = parts.iter().zip(&self.trains).filter(|(_, trains)| !**trains);
+        let judging: Vec<[f64; 2]> = judging.map(|(part, _)| *part).collect();
+        Ok(surer(student(&judging), student(&parts)))
+    }
+
+    /// What each block tells of it: s and I, worth the less the more is left there.
+    fn parts(&self, without: &Fitted, with: &Fitted) -> Result<Vec<[f64; 2]>, FitError> {
         let (without, with) = (self.rows(without)?, self.rows(with)?);
         let one = |(without, with): (&Vec<f64>, &Vec<f64>)| -> [f64; 2] {
             let changes = || without.iter().zip(with).map(|(a, b)| (a, a - b));
@@ -30,10 +38,7 @@ impl Board<'_> {
                 [changes().map(|(a, d)| a * d).sum(), changes().map(|(_, d)| d * d).sum()];
             sums.map(|sum| worth * sum)
         };
-        let parts: Vec<[f64; 2]> = without.iter().zip(&with).map(one).collect();
-        let judging = parts.iter().zip(&self.trains).filter(|(_, trains)| !**trains);
-        let judging: Vec<[f64; 2]> = judging.map(|(part, _)| *part).collect();
-        Ok(surer(student(&judging), student(&parts)))
+        Ok(without.iter().zip(&with).map(one).collect())
     }
 
     /// The residuals of the blocks, those of the load cells after the others.
@@ -78,7 +83,9 @@ fn student(parts: &[[f64; 2]]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{student, surer};
+    use super::{Board, student, surer};
+    use crate::walk::made;
+    use identify::effects::Kind;
 
     #[test]
     fn where_all_blocks_tell_as_much_it_is_students_t_of_the_mean() {
@@ -95,6 +102,21 @@ mod tests {
         assert_eq!(surer(6.0, 7.0), 6.0);
         assert_eq!(surer(2.0, 40.0), 3.0);
         assert_eq!(surer(-2.0, 40.0), -2.0);
+    }
+
+    #[test]
+    fn the_blocks_that_were_fitted_tell_of_an_effect_as_well() {
+        let data = made::data();
+        let board = Board::of(&made::rig(2.0), &data, 1, Vec::new()).unwrap();
+        let model = |bias: f64| {
+            board.judged(&made::with(&made::rig(2.0), Kind::CurrentBias, &[bias]), None).unwrap()
+        };
+        let (without, with) = (model(0.97 * made::BIAS), model(made::BIAS));
+        let parts = board.parts(&without, &with).unwrap();
+        let judging: Vec<[f64; 2]> =
+            (0..parts.len()).filter(|k| !board.trains[*k]).map(|k| parts[k]).collect();
+        let (half, told) = (student(&judging), board.evidence(&without, &with).unwrap());
+        assert!(half > 3.0 && told > 1.02 * half, "{told} where half of the blocks tell {half}");
     }
 
     #[test]

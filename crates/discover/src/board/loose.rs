@@ -28,7 +28,7 @@ const NOTHING: f64 = 1.1;
 pub(crate) const OFFSET: &str = "offset";
 
 /// What a unit of the input gives, plant by plant.
-const DRIVES: &[&str] = &["motor_constant", "gain", "torque_constant", "resistance"];
+pub(super) const DRIVES: &[&str] = &["motor_constant", "gain", "torque_constant", "resistance"];
 
 /// The forces of a drum's springs at rest, where they are seen.
 const PULLS: [&str; 2] = ["f_10", "f_20"];

@@ -5,6 +5,7 @@ mod evidence;
 mod loose;
 mod noises;
 mod race;
+mod scale;
 mod steps;
 
 pub(crate) use ahead::Ahead;
@@ -26,7 +27,7 @@ use identify::{
         window::Window,
     },
 };
-use loose::{LOOSE, prestress};
+use loose::{DRIVES, LOOSE, prestress};
 use noises::noises;
 use std::sync::Arc;
 

@@ -1,6 +1,7 @@
 //! The derivatives of all residuals by what is free and by what may be missing, as one Gram matrix a block.
 
 mod rows;
+mod spreads;
 
 use crate::board::{Board, Fitted, SOFT};
 use identify::{
@@ -11,6 +12,7 @@ use identify::{
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 pub(crate) use rows::{jacobians, residuals};
+pub(crate) use spreads::spreads;
 
 /// An effect at one probe, and its columns.
 #[derive(Debug, Clone)]

@@ -5,25 +5,19 @@
 //! much as a weak effect gains.
 
 use super::{Walk, named::NOTHING};
-use crate::{board::Fitted, decide::Judged, model::Candidate};
+use crate::{board::Fitted, model::Candidate};
 use identify::fit::FitError;
 use rayon::prelude::*;
 
 impl Walk<'_> {
-    /// The last model and the candidates, near the floor, each with its windows begun where they leave least; and what the last
-    /// model then leaves.
-    pub(super) fn begun_alike(
-        &mut self,
-        now: Judged,
-        all: Vec<Candidate>,
-    ) -> Result<(Judged, Vec<Candidate>), FitError> {
-        if now.level() > NOTHING || all.is_empty() {
-            return Ok((now, all));
+    /// The candidates, and with them the last model, near the floor, each with its windows begun where they leave least.
+    pub(super) fn begun_alike(&mut self, all: Vec<Candidate>) -> Result<Vec<Candidate>, FitError> {
+        if self.judged(&self.best.blocks).level() > NOTHING || all.is_empty() {
+            return Ok(all);
         }
         self.best = self.board.seated(&self.best)?;
         let one = |c: Candidate| Ok(Candidate { fitted: self.board.seated(&c.fitted)?, ..c });
-        let all: Result<Vec<Candidate>, FitError> = all.into_par_iter().map(one).collect();
-        Ok((self.judged(&self.best.blocks), all?))
+        all.into_par_iter().map(one).collect()
     }
 
     /// The same of the last model and one `other` that is compared with it.
@@ -57,14 +51,14 @@ mod tests {
         data
     }
 
-    /// A model with every judging window begun 1 cm beside where it did.
-    fn spoiled(walk: &Walk<'_>, fitted: &Fitted) -> Fitted {
+    /// A model with every judging window begun so far beside where it did [m].
+    fn spoiled(walk: &Walk<'_>, fitted: &Fitted, by: f64) -> Fitted {
         let held = fitted.held();
         let problem = walk.board.problem(&held, |_| true).unwrap();
         let mut pieces = fitted.pieces.clone();
         for (w, piece) in pieces.iter_mut().enumerate().filter(|(w, _)| !walk.board.trains[*w]) {
             let [q, v, ..] = piece.start;
-            *piece = problem.piece(&[], &walk.board.windows[w], [q + 0.01, v, 0.0, 0.0, 0.0]);
+            *piece = problem.piece(&[], &walk.board.windows[w], [q + by, v, 0.0, 0.0, 0.0]);
         }
         let blocks = walk.board.sums(&problem, &[], &pieces);
         Fitted { pieces, blocks, ..fitted.clone() }
@@ -78,14 +72,18 @@ mod tests {
         let there =
             walk.board.judged(&with(&rig(2.0), Kind::CurrentBias, &[0.07 * BIAS]), None).unwrap();
         let right = level(&walk, &there);
-        let begun = spoiled(&walk, &there);
+        let begun = spoiled(&walk, &there, 0.01);
         assert!(level(&walk, &begun) > 2.0 * right, "{} {right}", level(&walk, &begun));
-        let now = walk.judged(&walk.best.blocks);
-        assert!(right < now.level() && now.level() < super::NOTHING, "{}", now.level());
+        // As every candidate is that a step follows, and the last model with it.
+        let now = level(&walk, &walk.best);
+        walk.best = spoiled(&walk, &walk.best, 4e-4);
+        let badly = level(&walk, &walk.best);
+        assert!(right < now && 1.01 * now < badly && badly < super::NOTHING, "{now} {badly}");
         let candidate = Candidate { kind: Kind::CurrentBias, fitted: begun.clone() };
-        let (after, all) = walk.begun_alike(now.clone(), vec![candidate]).unwrap();
-        assert!((level(&walk, &all[0].fitted) / right - 1.0).abs() < 1e-6);
-        assert!((after.level() / now.level() - 1.0).abs() < 1e-6, "it began well");
+        let all = walk.finely(vec![candidate]).unwrap();
+        let (left, after) = (level(&walk, &all[0].fitted), level(&walk, &walk.best));
+        assert!((left / right - 1.0).abs() < 0.02, "{left} {right}");
+        assert!((after / now - 1.0).abs() < 1e-6, "{after} {now}");
         // So does the last model itself.
         walk.best = begun;
         let without = walk.board.judged(&rig(2.0), None).unwrap();
@@ -125,7 +123,7 @@ mod tests {
         let context = crate::walk::made::context(&walk);
         let there =
             walk.board.judged(&with(&rig(2.0), Kind::CurrentBias, &[0.07 * BIAS]), None).unwrap();
-        walk.best = spoiled(&walk, &there);
+        walk.best = spoiled(&walk, &there, 0.01);
         let mut effects = vec![found("current_bias")];
         walk.drop_each(&mut effects, &context).unwrap();
         assert_eq!(effects.len(), 1);

@@ -1,6 +1,6 @@
 //! A model once more from where it was not.
 
-use super::{ABOVE, REFIT, Walk, astray};
+use super::{ABOVE, REFIT, Walk, begin::astray};
 use crate::board::Fitted;
 use identify::{
     Rig,

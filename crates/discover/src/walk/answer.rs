@@ -8,7 +8,7 @@ use super::{
 use crate::{
     board::{Fitted, strays},
     decide::{Judged, shrink},
-    gram::Gram,
+    gram::{Gram, spreads},
     screen,
     verdict::{Discovery, Found, Gap, Limit, Moved, Value, Verdict, name},
     wrong::{Minimum, besides, wrong},
@@ -18,7 +18,6 @@ use identify::{
     effects::Context,
     fit::{FitError, binding, starts},
 };
-use nalgebra::{DMatrix, SymmetricEigen};
 
 /// What is left may be so much larger than the floor before it is said that more is missing: right models of 84 records
 /// left 0.64 to 1.12 floors, with one of 1.42, wrong ones 1.23 and more.
@@ -26,9 +25,6 @@ pub(super) const MORE: f64 = 1.2;
 
 /// What is known is so much better known than the record tells.
 const KNOWN: f64 = 1e9;
-
-/// A scaled curvature that is less than this is the rounding of larger ones.
-const UNSEEN: f64 = 1e-12;
 
 /// What leaves so much may leave noise that is not white, if it takes away so much of the excess.
 pub(super) const NOISY: f64 = 1.6;
@@ -118,8 +114,7 @@ impl Walk<'_> {
         let (values, wrong) = self.values(rig, &|_| false)?;
         let one = |found: &Value| {
             let given = rig.value(&found.name).unwrap_or(f64::NAN);
-            let own = !self.board.loose.iter().any(|(name, _)| *name == found.name);
-            let surely = own && wrong.contains(&found.name) && moved(rig, found);
+            let surely = self.own(&found.name) && wrong.contains(&found.name) && moved(rig, found);
             let surely = surely && !self.drifts_past(found, given);
             Moved { given, found: found.clone(), moved: surely }
         };
@@ -131,6 +126,12 @@ impl Walk<'_> {
             }
         }
         Ok((values, parameters))
+    }
+
+    /// Whether a value may be told as wrong: it is free in the rig file, or is not held near the given one.
+    pub(super) fn own(&self, name: &str) -> bool {
+        let loose = self.board.loose.iter().any(|(loose, _)| loose == name);
+        !loose || self.given.free.iter().any(|free| free == name)
     }
 
     /// Whether the model is surely worse with the values that were given of what moved.
@@ -181,21 +182,24 @@ impl Walk<'_> {
                 all[(i, i)] *= KNOWN;
             }
         }
-        let size: Vec<f64> = (0..n).map(|i| all[(i, i)].max(1e-300).sqrt()).collect();
-        let scaled = DMatrix::from_fn(n, n, |i, j| all[(i, j)] / (size[i] * size[j]));
-        let inverse = surely(scaled);
+        let spread = spreads(&all.view((0, 0), (n, n)).into_owned());
         let values = (0..n).map(|i| {
             let value = problem.value(i, &self.best.x);
             let own = problem.free[i].value(self.best.x[i]);
             let slope = problem.free[i].slope(own).abs();
-            let error = inverse
-                .as_ref()
-                .map_or(f64::NAN, |inverse| (variance * inverse[(i, i)]).sqrt() / size[i] * slope);
+            let error = variance.sqrt() * spread[i] * slope;
             let name = problem.free[i].name.clone();
             let unit = self.best.rig.unit(&name);
             Value { name, value, standard_error: error, unit }
         });
         let values = values.collect();
+        // What is free may be as far off as any: that it is held is for what the record does not tell.
+        for (i, name) in gram.names.iter().enumerate() {
+            if self.given.free.contains(name) && self.board.loose.iter().any(|(own, _)| own == name)
+            {
+                all[(i, i)] -= gram.prior[i] * variance;
+            }
+        }
         let curvature = all.view((0, 0), (n, n)) / variance;
         let wrong = wrong(&Minimum { problem: &problem, x: &self.best.x, curvature }, rig);
         let names = wrong.into_iter().map(|i| problem.free[i].name.clone()).collect();
@@ -258,19 +262,6 @@ pub(super) fn surely_worse(one: &Judged, other: &Judged) -> bool {
     one.against(other) > SURE && one.gained(other) > LEAST
 }
 
-/// The inverse of a symmetric matrix with ones on its diagonal, if it has one. Of a direction that the record does not
-/// see, as of the difference of two springs that always stretch alike, the curvature is rounding, which one inverts to
-/// anything: it counts as [`UNSEEN`], and the others keep what is theirs.
-fn surely(scaled: DMatrix<f64>) -> Option<DMatrix<f64>> {
-    if scaled.is_empty() {
-        return None;
-    }
-    let parts = SymmetricEigen::try_new(scaled, f64::EPSILON, 1000)?;
-    let weights = parts.eigenvalues.map(|curvature| 1.0 / curvature.max(UNSEEN));
-    let axes = parts.eigenvectors;
-    Some(&axes * DMatrix::from_diagonal(&weights) * axes.transpose())
-}
-
 /// The unit of a channel.
 fn unit_of(rig: &Rig, channel: &str) -> &'static str {
     let turns = identify::rig::Kind::of(rig.kind).is_some_and(identify::rig::Kind::turns);
@@ -292,7 +283,7 @@ pub(super) fn moved(rig: &Rig, found: &Value) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Judged, Moved, Value, surely, surely_worse};
+    use super::{Judged, Moved, Value, surely_worse};
     use crate::{
         verdict::Options,
         walk::{made, walked},
@@ -301,7 +292,6 @@ mod tests {
         Hold, Rig,
         fit::{Data, Seen, simulate},
     };
-    use nalgebra::DMatrix;
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
@@ -367,19 +357,6 @@ mod tests {
         assert!(!walk.far(&with(1e-3)).unwrap());
         walk.best = walk.board.judged(&bristles(1.5, 1e-3), None).unwrap();
         assert!(walk.judged(&walk.best.blocks).level() < 1.05, "the truth");
-    }
-
-    #[test]
-    fn a_direction_that_is_not_seen_leaves_the_errors_of_the_others_alone() {
-        // Of the first two only the sum is seen, to the last bit.
-        let (a, bit) = (0.25, 1.0 - f64::EPSILON);
-        let inverse = surely(DMatrix::from_row_slice(3, 3, &[1., bit, a, bit, 1., a, a, a, 1.]));
-        let inverse = inverse.expect("it is symmetric");
-        // With s = (x + y)/√2: the block [2, a√2; a√2, 1] has the inverse's last entry 1/(1 - a²).
-        let expected = 1.0 / (1.0 - a * a);
-        assert!((inverse[(2, 2)] / expected - 1.0).abs() < 1e-9, "{inverse}");
-        assert!((inverse[(0, 0)] / 5e11 - 1.0).abs() < 1e-3, "{inverse}");
-        assert!(surely(DMatrix::zeros(0, 0)).is_none());
     }
 
     #[test]

@@ -58,15 +58,15 @@ impl Walk<'_> {
     /// Whether it must be asked which parameter is wrong: several moved together, or none is told from what all nominal
     /// values may be off, and yet some are far from theirs.
     pub(super) fn unsure_which(&self, rig: &Rig, parameters: &[Moved]) -> bool {
-        let own = |p: &&Moved| !self.board.loose.iter().any(|(name, _)| *name == p.found.name);
+        let own = |p: &&Moved| self.own(&p.found.name);
         let none = parameters.iter().all(|p| !p.moved);
         several(parameters) || none && parameters.iter().filter(own).any(|p| moved(rig, &p.found))
     }
 
-    /// What is tied to its given value and not loose already.
+    /// What is tied to its given value and may be told as wrong.
     pub(super) fn tied(&self, rig: &Rig) -> Vec<(String, f64)> {
         let mut tied = board::tied(rig);
-        tied.retain(|(name, _)| !self.board.loose.iter().any(|(loose, _)| loose == name));
+        tied.retain(|(name, _)| self.own(name));
         tied
     }
 
@@ -75,8 +75,8 @@ impl Walk<'_> {
     pub(super) fn one_wrong(&mut self, rig: &Rig) -> Result<Option<String>, FitError> {
         let tied = self.tied(rig);
         let with = |name: &str| -> Board<'_> {
-            let own = tied.iter().filter(|(tied, _)| tied != name);
-            let loose = own.chain(&self.board.loose).cloned().collect();
+            let others = self.board.loose.iter().filter(|(loose, _)| !self.own(loose));
+            let loose = tied.iter().chain(others).filter(|(own, _)| own != name).cloned().collect();
             Board { loose, ..self.board.clone() }
         };
         let mut start = self.best.rig.clone();
@@ -110,7 +110,9 @@ impl Walk<'_> {
         let loose = mem::replace(&mut self.board.loose, before);
         let given = rig.value(&name).unwrap_or(f64::NAN);
         let Some(found) = found.filter(|found| moved(rig, found)) else { return Ok(None) };
-        if !self.far(&[Moved { given, found, moved: true }])? {
+        // All others can be so in place of what scales them all.
+        let scales = self.board.loose.iter().any(|(loose, _)| *loose == name);
+        if !scales && !self.far(&[Moved { given, found, moved: true }])? {
             return Ok(None);
         }
         self.best = fitted;

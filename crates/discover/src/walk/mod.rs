@@ -5,6 +5,7 @@ mod alike;
 mod anew;
 mod answer;
 mod beam;
+mod begin;
 mod candidates;
 mod dips;
 mod drifts;
@@ -34,13 +35,14 @@ mod unmoved;
 mod waves;
 
 use crate::{
-    board::{self, Board, FINE, Fitted, ROUGH},
+    board::{Board, FINE, Fitted, ROUGH},
     decide::{Judged, shrink},
     gram::Gram,
     model::{self, Candidate},
     screen::Scored,
     verdict::{Discovery, Found, Options, Ranked},
 };
+use begin::{Begin, begin, settled};
 pub use holds::discover;
 use identify::{
     Hold, Rig,
@@ -55,10 +57,6 @@ const SHORT: usize = 4;
 
 /// Enough for the nominal model.
 const REFIT: Patience = Patience { misfit: 1.0, share: 5e-5, simulations: 20 };
-
-/// A model is refitted so often at most, as long as the mean squared residual falls below so much of what it was.
-const SETTLED: usize = 5;
-const AS_BEFORE: f64 = 0.8;
 
 /// Enough to come near.
 const FIRST: Patience = Patience { misfit: 20.0, share: 2e-3, simulations: 20 };
@@ -117,41 +115,25 @@ struct End {
 
 /// Looks for what the model `rig` lacks, and asks whether the record is nearer with its input as in one of the `others`.
 fn walked(
-    (rig, mut loose): (&Rig, Vec<(String, f64)>),
+    (given, loose): (&Rig, Vec<(String, f64)>),
     data: &Data,
     others: &[Data],
     options: &Options,
 ) -> Result<End, FitError> {
     let data = &crate::rest::still(data);
-    let fixed = Rig { free: Vec::new(), ..rig.clone() };
-    let mut held = board::loosened(rig, &loose);
-    let (mut board, mut refit) = nominal(&held, data, &loose, options.seed)?;
-    // What is given and not free may be a little off; what is far off is not the refit's to mend.
-    let (mut strayed, mut start) = (Vec::new(), held.clone());
-    let mut names = board.strayed_alone(&refit);
-    while !names.is_empty() {
-        strayed.extend(loose.extract_if(.., |(name, _)| names.contains(name)));
-        held = board::loosened(rig, &loose);
-        start = board.all_but(&refit, &held);
-        (board, refit) = nominal(&held, data, &loose, options.seed)?;
-        names = board.lone_pull(&refit).into_iter().collect();
-    }
-    let rig = &held;
+    let Begin { rig, loose, board, refit, origin, strayed } =
+        begin((given, loose), data, options.seed)?;
+    let rig = &rig;
     let channels = refit.blocks.first().map_or(1, Vec::len) as f64;
     let counts: Vec<f64> = board.samples().into_iter().map(|n| n * channels).collect();
-    let mut origin = board.judged(&start, None)?;
-    if board.trained(&origin) < board.trained(&refit) || astray(&board, &refit, &origin) {
-        refit = from_given(&mut board, &origin, options.seed)?;
-        origin = board.again(&origin)?;
-    }
-    let short = Board::of(rig, data, SHORT, loose.clone())?;
+    let short = Board::of(rig, data, SHORT, loose)?;
     let mut walk = Walk {
         board,
         short,
         counts,
         best: refit,
         refit: f64::INFINITY,
-        given: fixed.clone(),
+        given: given.clone(),
         origin,
         ranking: Vec::new(),
         joins: true,
@@ -175,60 +157,10 @@ fn walked(
     let refit = walk.polish(&refit, options.seed)?;
     walk.drop_unsure((rig, &refit), &mut effects, &context)?;
     let refit = walk.wrong_given(rig, &mut effects)?.unwrap_or(refit);
-    let before = walk.board.judged(&fixed, None)?;
+    let before = walk.board.judged(given, None)?;
     let other = if walk.turned.is_some() { walk.turned } else { walk.may_be_other()? };
     let found = walk.answer((rig, &before, &refit), (effects, &start), &context)?;
     Ok(End { found, other })
-}
-
-/// The blocks of `data` with their floor, and the nominal model refitted on them.
-fn nominal<'a>(
-    rig: &Rig,
-    data: &'a Data,
-    loose: &[(String, f64)],
-    seed: u64,
-) -> Result<(Board<'a>, Fitted), FitError> {
-    let mut board = Board::of(rig, data, 1, loose.to_vec())?;
-    let short = Board::of(rig, data, SHORT, loose.to_vec())?;
-    let first = board.refit(rig, Some(&short).filter(|s| !s.imposed()), &FIRST)?;
-    let first = board.refined(&first, FINE)?;
-    board.refloor(&first, seed)?;
-    let refit = board.again(&first)?;
-    let refit = settled(&mut board, refit, seed)?;
-    Ok((board, refit))
-}
-
-/// A model refitted for as long as it comes much nearer. The nearer it is the less its steps may be wrong by, and what
-/// noise leaves is known the better.
-fn settled(board: &mut Board<'_>, mut fitted: Fitted, seed: u64) -> Result<Fitted, FitError> {
-    for _ in 0..SETTLED {
-        let before = board.trained_level(&fitted);
-        fitted = board.fit(&fitted.rig, Some((&fitted.x, &fitted.pieces)), &REFIT)?;
-        fitted = board.refined(&fitted, FINE)?;
-        board.refloor(&fitted, seed)?;
-        fitted = board.again(&fitted)?;
-        if board.trained_level(&fitted) > AS_BEFORE * before {
-            break;
-        }
-    }
-    Ok(fitted)
-}
-
-/// The model refitted from the given values alone: where they are right already, a search by way of short windows
-/// may lead away from them.
-fn from_given(board: &mut Board<'_>, given: &Fitted, seed: u64) -> Result<Fitted, FitError> {
-    let given = board.refined(given, FINE)?;
-    board.refloor(&given, seed)?;
-    let given = board.again(&given)?;
-    let refit = board.fit(&given.rig, Some((&given.x, &given.pieces)), &REFIT)?;
-    let better = board.trained(&refit) < board.trained(&given);
-    Ok(if better && !astray(board, &refit, &given) { refit } else { given })
-}
-
-/// Whether a refit says nothing: the model is far off with it, and a parameter went to what is absurd. A mass without
-/// friction that is to come to rest is best as heavy as can be.
-fn astray(board: &Board<'_>, refit: &Fitted, given: &Fitted) -> bool {
-    board.trained_level(refit) > GROSS && !model::reasonable(&refit.rig, &given.rig)
 }
 
 impl Walk<'_> {
@@ -334,7 +266,7 @@ impl Walk<'_> {
         }
         let candidates = self.candidates(context, options, (round, start))?;
         let all = self.finely(candidates)?;
-        let (now, all) = self.begun_alike(now, all)?;
+        let now = self.judged(&self.best.blocks);
         let mut all = self.told_apart(&now, all, context)?;
         self.turned = self.turns(&all)?;
         if self.turned.is_some() {
@@ -388,11 +320,12 @@ impl Walk<'_> {
         candidates.iter().map(level).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The candidates followed to their ends, with steps as short as the nearest asks for.
+    /// The candidates followed to their ends, with steps as short as the nearest asks for, and begun as the last model.
     fn finely(&mut self, candidates: Vec<Candidate>) -> Result<Vec<Candidate>, FitError> {
         if let Some((best, _)) = self.nearest(&candidates) {
             self.board.refine(&best.fitted, FINE)?;
         }
-        Ok(self.followed(candidates))
+        let all = self.followed(candidates);
+        self.begun_alike(all)
     }
 }

@@ -1,11 +1,13 @@
 //! A simpler rival of the nearest effect, looked for once more.
 
 use super::{
-    Walk,
+    FIRST, Walk,
     candidates::AFRESH,
     named::{MOST, numbers},
+    polish::lacking,
 };
 use crate::{
+    board::Fitted,
     decide::{Judged, shrink},
     gram,
     model::{self, Candidate},
@@ -14,6 +16,7 @@ use crate::{
 use identify::{
     Rig,
     effects::{Context, Kind, LAWS},
+    fit::starts,
 };
 use rayon::prelude::*;
 
@@ -25,6 +28,10 @@ const HEATS: [(usize, usize); 2] = [(6, 14), (12, 6)];
 
 /// So many of what is begun are followed to their ends.
 const ENDED: usize = 2;
+
+/// What repeats once a turn does so at this wavenumber [1/rad], as nearly as this.
+const TURN: f64 = 1.0;
+const NEARLY: f64 = 0.1;
 
 impl Walk<'_> {
     /// What the nearest candidate is confused with and needs fewer numbers, a shape among them, if it was a candidate as
@@ -68,11 +75,29 @@ impl Walk<'_> {
             near.truncate(ENDED);
             near
         };
-        let all: Vec<Candidate> = LAWS.iter().filter(rival).flat_map(again).collect();
+        let mut all: Vec<Candidate> = LAWS.iter().filter(rival).flat_map(again).collect();
+        all.extend(self.once_a_turn(best, context));
         let ended = |c: &Candidate| {
             Some(Candidate { kind: c.kind, fitted: self.ended(c.fitted.clone()).ok()? })
         };
         all.par_iter().filter_map(ended).collect()
+    }
+
+    /// A wave along the way that repeats about once a turn, as the weight that does so.
+    fn once_a_turn(&self, wave: &Candidate, context: &Context) -> Option<Candidate> {
+        let weight = Kind::GravityUnbalance;
+        let value = |key: &str| wave.fitted.rig.value(&format!("cogging.{key}"));
+        let turns = wave.kind == Kind::Cogging && !(weight.about().probes)(context).is_empty();
+        if !turns || (value("wavenumber")? - TURN).abs() > NEARLY || !weight.applies(&self.best.rig)
+        {
+            return None;
+        }
+        let values = vec![value("sine")?, value("cosine")?];
+        let bare = Fitted { rig: lacking(&wave.fitted.rig, "cogging"), ..wave.fitted.clone() };
+        let rig = model::with(&bare, &Scored::unscored(weight, values));
+        let x = starts::nominal(&self.board.problem(&rig, |_| true).ok()?);
+        let fitted = self.board.fit(&rig, Some((&x, &wave.fitted.pieces)), &FIRST).ok()?;
+        Some(Candidate { kind: weight, fitted })
     }
 }
 
@@ -82,7 +107,7 @@ mod tests {
         model::Candidate,
         walk::made::{DRY, context, taken, walk, with},
     };
-    use identify::{Rig, effects::Kind};
+    use identify::{Rig, effects::Kind, fit::Seen};
 
     #[test]
     fn a_simpler_rival_is_begun_once_more_beside_a_richer_one() {
@@ -112,5 +137,44 @@ mod tests {
         let aged =
             candidate(Kind::DwellStiction, &with(&rig, Kind::DwellStiction, &[0.1, 0.5, 1.0]));
         assert!(walk.simpler(&now, &[right, aged], &context).is_empty());
+    }
+
+    #[test]
+    fn a_wave_that_repeats_once_a_turn_is_a_weight() {
+        // A weight of 0.3 N·m on the side and 0.2 above, of a pulley that comes three radians far.
+        let text = "title = \"t\"\n[plant]\nkind = \"axis\"\ninertia = 2.0\ngain = 1.0\n[friction]\nname = \"none\"\n\
+                    sigma_2 = 0.5\n[fit]\nfree = [\"sigma_2\"]\n[channels]\ntime = \"t\"\nvoltage = \"u\"\nposition = \"x\"\n";
+        let rig = Rig::parse(text).unwrap();
+        let (mut data, turns) = (crate::walk::made::data(), 3.0);
+        let noise: Vec<f64> = data
+            .displacement
+            .as_ref()
+            .unwrap()
+            .values
+            .iter()
+            .zip(&data.time)
+            .map(|(x, t)| x - (2.0 * t).sin())
+            .collect();
+        let seen = data.time.iter().zip(noise).map(|(t, e)| turns * (2.0 * t).sin() + e).collect();
+        for (u, t) in data.input.iter_mut().zip(&data.time) {
+            let (s, c) = f64::sin_cos(2.0 * t);
+            let (q, v, a) = (turns * s, turns * 2.0 * c, -turns * 4.0 * s);
+            *u = 2.0 * a + 0.5 * v + 0.3 * q.sin() + 0.2 * q.cos();
+        }
+        data.displacement = Some(Seen::new("position", seen, 0.0));
+        let walk = walk(&rig, &data, &[]);
+        let (now, context) = (walk.judged(&walk.best.blocks), context(&walk));
+        let wave = |wavenumber: f64| Candidate {
+            kind: Kind::Cogging,
+            fitted: walk
+                .board
+                .judged(&with(&rig, Kind::Cogging, &[0.3, 0.2, wavenumber]), None)
+                .unwrap(),
+        };
+        let found = walk.simpler(&now, &[wave(1.001)], &context);
+        let level = |c: &Candidate| walk.judged(&c.fitted.blocks).level();
+        let [weight] = &found[..] else { panic!("{found:?}") };
+        assert!(weight.kind == Kind::GravityUnbalance && level(weight) < 1.1, "{}", level(weight));
+        assert!(walk.simpler(&now, &[wave(1.2)], &context).is_empty());
     }
 }

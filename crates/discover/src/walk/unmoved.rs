@@ -19,7 +19,7 @@ impl Walk<'_> {
             return false;
         }
         let mut loose = self.tied(rig);
-        loose.extend(self.board.loose.iter().cloned());
+        loose.extend(self.board.loose.iter().filter(|(name, _)| !self.own(name)).cloned());
         let before = mem::replace(&mut self.board.loose, loose.clone());
         self.short.loose = loose;
         let here = &self.best.rig;
