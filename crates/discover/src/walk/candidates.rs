@@ -163,12 +163,15 @@ impl Walk<'_> {
     /// The candidates as they are judged, the best first, each effect once as far as it is plausible and once else.
     pub(super) fn rated(&self, candidates: Vec<Candidate>, context: &Context) -> Vec<Rated> {
         let sum = |fitted: &Fitted| fitted.blocks.iter().flatten().sum::<f64>();
+        let weighed = self.weighed(&self.best);
         let one = |candidate: Candidate| {
             let judged = self.judged(&candidate.fitted.blocks);
             // What begins where it was tried fits what a break-away leaves wherever it can.
             let smooth = candidate.kind.tried().is_empty();
             let evidence = if smooth { self.evidence(&self.best, &candidate.fitted) } else { 0.0 };
-            let plausible = self.fits(&candidate, context) && self.sharper(&candidate);
+            let plausible = self.fits(&candidate, context)
+                && self.sharper(&candidate)
+                && self.beyond_noise(weighed.as_ref(), &candidate);
             let together = sum(&self.best) - sum(&candidate.fitted);
             Rated { candidate, judged, evidence, together, plausible }
         };

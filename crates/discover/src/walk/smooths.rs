@@ -3,9 +3,14 @@
 //! An input that comes late by a part of a sample is a mean of two, and what a sensor shows late is one of what was: with
 //! either the model is moved less by the noise that was recorded, and leaves less, whether or not it is there. What is there
 //! is nearer as well where that noise is taken away before.
+//!
+//! So is any model through which less of that noise gets, as one with more drag or more mass: what noise leaves is weighed as the
+//! model before foretold it. The least of ‖W r(θ)‖² over θ at a fixed W is not at the truth, for r holds what the noise of
+//! the input does in the very model that is asked (errors in variables); with W(θ) of each model's own its expectation is the
+//! number of residuals there, to first order, whatever the noise.
 
-use super::Walk;
-use crate::model::Candidate;
+use super::{Walk, named::NOTHING};
+use crate::{board::Fitted, model::Candidate};
 use identify::{
     effects::Kind,
     fit::{Data, FitError},
@@ -23,7 +28,39 @@ const WITHIN: f64 = 4.0;
 /// samples takes a fiftieth of what it takes of all.
 const STAYS: f64 = 0.1;
 
+/// Weighed by its own noise a model gains so much of what it gains, or more: what was there did nine tenths and more on the records
+/// looked at, what was not a fifth at most, and mostly lost. Less than so many squared standard errors is nothing to ask of.
+const OWN: f64 = 0.5;
+const WORTH: f64 = 25.0;
+
 impl Walk<'_> {
+    /// A model near the floor, weighed by what the noise of the input makes of itself; none elsewhere.
+    pub(super) fn weighed(&self, fitted: &Fitted) -> Option<Fitted> {
+        if self.board.imposed() || self.judged(&fitted.blocks).level() > NOTHING {
+            return None;
+        }
+        let mut board = self.board.clone();
+        board.refloor(fitted, 0).ok()?;
+        board.again(fitted).ok()
+    }
+
+    /// Whether a candidate is nearer not only because less noise gets through it, where the last model, weighed by its own noise,
+    /// is this one.
+    pub(super) fn beyond_noise(&self, weighed: Option<&Fitted>, candidate: &Candidate) -> bool {
+        let there = &candidate.fitted;
+        let sum = |fitted: &Fitted| fitted.blocks.iter().flatten().sum::<f64>();
+        let gains = |a: &Fitted, b: &Fitted| {
+            [self.judged(&a.blocks).gained(&self.judged(&b.blocks)), sum(a) - sum(b)]
+        };
+        let (Some(without), with) = (weighed, gains(&self.best, there)) else { return true };
+        if with.iter().all(|gain| *gain < WORTH) {
+            return true;
+        }
+        let Some(there) = self.weighed(there) else { return true };
+        let mut both = gains(without, &there).into_iter().zip(with);
+        both.any(|(own, with)| with > WORTH && own > OWN * with)
+    }
+
     /// Whether a candidate is nearer not only because it makes noise smooth.
     pub(super) fn sharper(&self, candidate: &Candidate) -> bool {
         let smooths = matches!(candidate.kind, Kind::InputDelay | Kind::VelocityLag);
@@ -116,7 +153,9 @@ mod tests {
             let fitted = walk.board.judged(&rig, Some(&walk.best.pieces)).unwrap();
             let [alone, late] = [&walk.best, &fitted].map(|f| walk.judged(&f.blocks).level());
             assert!(late < 0.9 * alone && late < super::FAR, "{late} {alone}");
-            assert_eq!(walk.sharper(&Candidate { kind: Kind::InputDelay, fitted }), there);
+            let candidate = Candidate { kind: Kind::InputDelay, fitted };
+            assert_eq!(walk.sharper(&candidate), there);
+            assert!(walk.beyond_noise(None, &candidate), "far off nobody asks");
         }
     }
 
