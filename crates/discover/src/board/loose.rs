@@ -178,8 +178,7 @@ impl Board<'_> {
     pub(crate) fn all_but(&self, refit: &Fitted, held: &Rig) -> Rig {
         let mut rig = held.clone();
         if self.trained_level(refit) < NOTHING {
-            let loose = |name: &&String| self.loose.iter().any(|(own, _)| own == *name);
-            for name in held.free.iter().filter(|name| !loose(name)) {
+            for name in held.free.iter().filter(|name| !self.holds(name)) {
                 let value = refit.rig.value(name).unwrap_or(f64::NAN);
                 binding::set(&mut rig, name, value);
             }

@@ -3,6 +3,7 @@
 mod ahead;
 mod evidence;
 mod loose;
+mod near;
 mod noises;
 mod race;
 mod scale;
@@ -72,6 +73,11 @@ impl Fitted {
     /// Its rig with nothing free.
     pub(crate) fn held(&self) -> Rig {
         Self::holding(&self.rig)
+    }
+
+    /// The sum of all squared residuals [1].
+    pub(crate) fn sum(&self) -> f64 {
+        self.blocks.iter().flatten().sum()
     }
 
     /// `rig` with nothing free.
@@ -180,6 +186,11 @@ impl<'a> Board<'a> {
     /// Whether the motion is imposed.
     pub(crate) fn imposed(&self) -> bool {
         self.data.force.is_some()
+    }
+
+    /// Whether a value is held near the given one.
+    pub(crate) fn holds(&self, name: &str) -> bool {
+        self.loose.iter().any(|(loose, _)| loose == name)
     }
 
     /// The problem of `rig` on the blocks that `take` says.
@@ -298,24 +309,6 @@ impl<'a> Board<'a> {
     /// A fitted model once more, as the board now weighs it, nothing moved but the starts.
     pub(crate) fn again(&self, fitted: &Fitted) -> Result<Fitted, FitError> {
         self.judged(&fitted.rig, Some(&fitted.pieces))
-    }
-
-    /// A fitted model with each window begun where it was or where one of the `others` does, whichever is nearer.
-    pub(crate) fn nearer(&self, fitted: &Fitted, others: &[Piece]) -> Result<Fitted, FitError> {
-        let there = self.judged(&fitted.rig, Some(others))?;
-        let pairs = fitted.pieces.iter().zip(&there.pieces);
-        let near = pairs.map(|(a, b)| if b.misfit() < a.misfit() { b } else { a });
-        self.judged(&fitted.rig, Some(&near.cloned().collect::<Vec<Piece>>()))
-    }
-
-    /// A fitted model with each window begun where it was or where what was seen leads to, whichever is nearer: a start has
-    /// minima of its own, and those of two models must be the same before what they leave can be compared.
-    pub(crate) fn seated(&self, fitted: &Fitted) -> Result<Fitted, FitError> {
-        if self.imposed() {
-            return Ok(fitted.clone());
-        }
-        let seen = self.judged(&fitted.rig, None)?;
-        self.nearer(fitted, &seen.pieces)
     }
 
     /// Counts the noise of the input anew, on its way through this model.

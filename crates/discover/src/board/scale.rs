@@ -25,7 +25,7 @@ impl Board<'_> {
         let Some(place) = gram.names.iter().position(|name| name == drive) else { return Ok(None) };
         let mut sum = gram.sum(|_| true).view((0, 0), (gram.nominal, gram.nominal)).into_owned();
         for (i, name) in gram.names.iter().enumerate() {
-            if self.loose.iter().any(|(loose, _)| loose == name) {
+            if self.holds(name) {
                 sum[(i, i)] += gram.prior[i];
             }
         }

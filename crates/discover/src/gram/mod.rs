@@ -53,7 +53,7 @@ pub(crate) fn lacking(
 ) -> Vec<(Kind, Vec<Vec<f64>>)> {
     // What is only a little loose can still be missing.
     let mut own = rig.clone();
-    own.free.retain(|name| !board.loose.iter().any(|(loose, _)| loose == name));
+    own.free.retain(|name| !board.holds(name));
     let applies = LAWS.iter().copied().filter(|kind| kind.applies(&own));
     applies.map(|kind| (kind, (kind.about().probes)(context))).collect()
 }

@@ -10,7 +10,7 @@ use crate::{
 use identify::{
     Rig,
     effects::Context,
-    fit::{FitError, search::Patience, starts},
+    fit::{FitError, search::Patience},
 };
 
 /// A map of twelve forces lowers the sum of squares by so much, in units of the floor, if something acts: by chance by
@@ -79,8 +79,7 @@ impl Walk<'_> {
         if acts(self)?.is_none() {
             return Ok(None);
         }
-        let x = starts::nominal(&self.board.problem(&self.best.rig, |_| true)?);
-        let down = self.board.fit(&self.best.rig, Some((&x, &self.best.pieces)), &DOWN)?;
+        let down = self.board.fit_near(&self.best.rig, &self.best.pieces, &DOWN)?;
         if self.board.trained(&down) < self.board.trained(&self.best) {
             self.best = down;
             let (values, _) = self.values(rig, &|_| false)?;

@@ -16,7 +16,7 @@ use crate::{
 use identify::{
     Rig,
     effects::Context,
-    fit::{FitError, binding, starts},
+    fit::{FitError, binding},
 };
 
 /// What is left may be so much larger than the floor before it is said that more is missing: right models of 84 records
@@ -130,8 +130,7 @@ impl Walk<'_> {
 
     /// Whether a value may be told as wrong: it is free in the rig file, or is not held near the given one.
     pub(super) fn own(&self, name: &str) -> bool {
-        let loose = self.board.loose.iter().any(|(loose, _)| loose == name);
-        !loose || self.given.free.iter().any(|free| free == name)
+        !self.board.holds(name) || self.given.free.iter().any(|free| free == name)
     }
 
     /// Whether the model is surely worse with the values that were given of what moved.
@@ -142,10 +141,9 @@ impl Walk<'_> {
             rig.free.retain(|name| *name != moved.found.name);
         }
         // What is given and only a little loose must not go as far in its place.
-        rig.free.retain(|name| !self.board.loose.iter().any(|(loose, _)| loose == name));
+        rig.free.retain(|name| !self.board.holds(name));
         let worse = |rig: &Rig| -> Result<bool, FitError> {
-            let x = starts::nominal(&self.board.problem(rig, |_| true)?);
-            let near = self.board.fit(rig, Some((&x, &self.best.pieces)), &FIRST)?;
+            let near = self.board.fit_near(rig, &self.best.pieces, &FIRST)?;
             Ok(surely_worse(&self.judged(&near.blocks), &self.judged(&self.best.blocks)))
         };
         if !worse(&rig)? {
@@ -175,7 +173,7 @@ impl Walk<'_> {
         let variance = self.judged(&self.best.blocks).mean().max(1.0);
         // What is held near its value is not as uncertain as the record leaves it.
         for (i, name) in gram.names.iter().enumerate() {
-            if self.board.loose.iter().any(|(loose, _)| loose == name) {
+            if self.board.holds(name) {
                 all[(i, i)] += gram.prior[i] * variance;
             }
             if known(name) {
@@ -195,8 +193,7 @@ impl Walk<'_> {
         let values = values.collect();
         // What is free may be as far off as any: that it is held is for what the record does not tell.
         for (i, name) in gram.names.iter().enumerate() {
-            if self.given.free.contains(name) && self.board.loose.iter().any(|(own, _)| own == name)
-            {
+            if self.board.holds(name) && self.own(name) {
                 all[(i, i)] -= gram.prior[i] * variance;
             }
         }

@@ -162,7 +162,6 @@ impl Walk<'_> {
 
     /// The candidates as they are judged, the best first, each effect once as far as it is plausible and once else.
     pub(super) fn rated(&self, candidates: Vec<Candidate>, context: &Context) -> Vec<Rated> {
-        let sum = |fitted: &Fitted| fitted.blocks.iter().flatten().sum::<f64>();
         let weighed = self.weighed(&self.best);
         let one = |candidate: Candidate| {
             let judged = self.judged(&candidate.fitted.blocks);
@@ -172,7 +171,7 @@ impl Walk<'_> {
             let plausible = self.fits(&candidate, context)
                 && self.sharper(&candidate)
                 && self.beyond_noise(weighed.as_ref(), &candidate);
-            let together = sum(&self.best) - sum(&candidate.fitted);
+            let together = self.best.sum() - candidate.fitted.sum();
             Rated { candidate, judged, evidence, together, plausible }
         };
         let mut rated: Vec<Rated> = candidates.into_iter().map(one).collect();

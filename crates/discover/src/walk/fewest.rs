@@ -14,7 +14,7 @@ use crate::{
 };
 use identify::{
     Rig,
-    fit::{Data, FitError, binding, starts},
+    fit::{Data, FitError, binding},
 };
 use rayon::prelude::*;
 use std::mem;
@@ -88,8 +88,7 @@ impl Walk<'_> {
             // From where it went to: the way from a value that is far off may end elsewhere.
             let mut start = start.clone();
             binding::set(&mut start, name, self.best.rig.value(name).unwrap_or(f64::NAN));
-            let x = starts::nominal(&board.problem(&start, |_| true)?);
-            Ok((name.clone(), board.fit(&start, Some((&x, &self.best.pieces)), &REFIT)?))
+            Ok((name.clone(), board.fit_near(&start, &self.best.pieces, &REFIT)?))
         };
         let all: Vec<_> = tied.par_iter().map(alone).collect::<Result<_, _>>()?;
         let now = self.judged(&self.best.blocks);
@@ -111,7 +110,7 @@ impl Walk<'_> {
         let given = rig.value(&name).unwrap_or(f64::NAN);
         let Some(found) = found.filter(|found| moved(rig, found)) else { return Ok(None) };
         // All others can be so in place of what scales them all.
-        let scales = self.board.loose.iter().any(|(loose, _)| *loose == name);
+        let scales = self.board.holds(&name);
         if !scales && !self.far(&[Moved { given, found, moved: true }])? {
             return Ok(None);
         }

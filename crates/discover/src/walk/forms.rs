@@ -5,7 +5,7 @@ use crate::{board::Fitted, model::Candidate};
 use identify::{
     Rig,
     effects::{Context, Kind, LAWS},
-    fit::{FitError, binding, starts},
+    fit::{FitError, binding},
 };
 use rayon::prelude::*;
 
@@ -107,10 +107,7 @@ impl Walk<'_> {
         };
         let others = LAWS.iter().filter(found_here).flat_map(other);
         let rigs: Vec<Rig> = others.collect();
-        let one = |rig: &Rig| {
-            let x = starts::nominal(&self.board.problem(rig, |_| true).ok()?);
-            self.board.fit(rig, Some((&x, &here.pieces)), &FIRST).ok()
-        };
+        let one = |rig: &Rig| self.board.fit_near(rig, &here.pieces, &FIRST).ok();
         let fitted: Vec<Fitted> = rigs.par_iter().filter_map(one).collect();
         let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
         let Some(nearest) = fitted.into_iter().min_by(|a, b| level(a).total_cmp(&level(b))) else {
@@ -129,8 +126,7 @@ impl Walk<'_> {
             return None;
         }
         let refitted = |rig: &Rig| {
-            let x = starts::nominal(&self.board.problem(rig, |_| true).ok()?);
-            let fitted = self.board.fit(rig, Some((&x, &candidate.fitted.pieces)), &FIRST).ok()?;
+            let fitted = self.board.fit_near(rig, &candidate.fitted.pieces, &FIRST).ok()?;
             Some(Candidate { kind: candidate.kind, fitted })
         };
         let found: Vec<Candidate> = variants.par_iter().filter_map(refitted).collect();

@@ -18,7 +18,7 @@ use crate::{
 use identify::{
     Hold, Rig,
     effects::Kind,
-    fit::{Data, FitError, hold, starts},
+    fit::{Data, FitError, hold},
 };
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -82,8 +82,7 @@ impl Walk<'_> {
     fn other_ways(&self, rig: &Rig, near: &Fitted) -> Result<Vec<Otherwise>, FitError> {
         let one = |other: &Data| {
             let board = Board { data: other, ..self.board.clone() };
-            let x = starts::nominal(&board.problem(rig, |_| true)?);
-            let there = board.fit(rig, Some((&x, &near.pieces)), &FIRST)?;
+            let there = board.fit_near(rig, &near.pieces, &FIRST)?;
             let [here, there] = [near, &there].map(|fitted| self.judged(&fitted.blocks));
             let share = there.level() / here.level();
             Ok(Otherwise { hold: other.hold, t: here.against(&there), share })

@@ -41,7 +41,7 @@ pub(super) const ALL: f64 = 0.9;
 /// It is no name either if the sum of squares on the judging blocks falls by less than so many squared standard errors, or
 /// than so many where what it changes tells that it is there.
 pub(super) const LEAST: f64 = 60.0;
-const TOLD: f64 = 25.0;
+pub(super) const TOLD: f64 = 25.0;
 
 /// Beside an effect that leaves the floor or little more, another lowers it by at least this share: a little is left by
 /// every formula that is not the drive's own.

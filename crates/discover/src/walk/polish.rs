@@ -14,7 +14,7 @@ use crate::{
 use identify::{
     Rig,
     effects::{Context, Key, Shape},
-    fit::{FitError, binding, search::Patience, starts},
+    fit::{FitError, binding, search::Patience},
 };
 use rayon::prelude::*;
 
@@ -98,8 +98,7 @@ impl<'a> Walk<'a> {
                 binding::set(&mut rig, name, value);
             }
         }
-        let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
-        let there = self.board.fit(&rig, Some((&x, &nearest.pieces)), &POLISH)?;
+        let there = self.board.fit_near(&rig, &nearest.pieces, &POLISH)?;
         let better = self.board.trained(&there) < self.board.trained(fitted);
         Ok(if better { there } else { fitted.clone() })
     }
@@ -165,8 +164,7 @@ impl<'a> Walk<'a> {
     /// A model refitted without one of its effects.
     pub(super) fn without(&self, fitted: &Fitted, name: &str) -> Result<Fitted, FitError> {
         let rig = lacking(&fitted.rig, name);
-        let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
-        self.board.fit(&rig, Some((&x, &fitted.pieces)), &REFIT)
+        self.board.fit_near(&rig, &fitted.pieces, &REFIT)
     }
 
     /// Takes away again, where the refitted nominal model leaves no more than the floor, every effect of which no amount

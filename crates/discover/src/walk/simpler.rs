@@ -16,7 +16,6 @@ use crate::{
 use identify::{
     Rig,
     effects::{Context, Kind, LAWS},
-    fit::starts,
 };
 use rayon::prelude::*;
 
@@ -95,8 +94,7 @@ impl Walk<'_> {
         let values = vec![value("sine")?, value("cosine")?];
         let bare = Fitted { rig: lacking(&wave.fitted.rig, "cogging"), ..wave.fitted.clone() };
         let rig = model::with(&bare, &Scored::unscored(weight, values));
-        let x = starts::nominal(&self.board.problem(&rig, |_| true).ok()?);
-        let fitted = self.board.fit(&rig, Some((&x, &wave.fitted.pieces)), &FIRST).ok()?;
+        let fitted = self.board.fit_near(&rig, &wave.fitted.pieces, &FIRST).ok()?;
         Some(Candidate { kind: weight, fitted })
     }
 }

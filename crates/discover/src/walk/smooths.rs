@@ -9,7 +9,10 @@
 //! the input does in the very model that is asked (errors in variables); with W(θ) of each model's own its expectation is the
 //! number of residuals there, to first order, whatever the noise.
 
-use super::{Walk, named::NOTHING};
+use super::{
+    Walk,
+    named::{NOTHING, TOLD},
+};
 use crate::{board::Fitted, model::Candidate};
 use identify::{
     effects::Kind,
@@ -32,7 +35,6 @@ const STAYS: f64 = 0.1;
 /// told: of three effects that were there nine tenths and more were left, of four that were not a fifth at most, and mostly
 /// they lost.
 const OWN: f64 = 0.5;
-const WORTH: f64 = 25.0;
 
 impl Walk<'_> {
     /// A model near the floor, weighed by what the noise of the input makes of itself; none elsewhere.
@@ -49,18 +51,17 @@ impl Walk<'_> {
     /// is this one.
     pub(super) fn beyond_noise(&self, weighed: Option<&Fitted>, candidate: &Candidate) -> bool {
         let there = &candidate.fitted;
-        let sum = |fitted: &Fitted| fitted.blocks.iter().flatten().sum::<f64>();
         let gains = |a: &Fitted, b: &Fitted| {
-            [self.judged(&a.blocks).gained(&self.judged(&b.blocks)), sum(a) - sum(b)]
+            [self.judged(&a.blocks).gained(&self.judged(&b.blocks)), a.sum() - b.sum()]
         };
         let (Some(without), with) = (weighed, gains(&self.best, there)) else { return true };
-        if with.iter().all(|gain| *gain < WORTH) {
+        if with.iter().all(|gain| *gain < TOLD) {
             return true;
         }
         let Some(there) = self.weighed(there) else { return true };
         let own = gains(without, &there);
         let stays = |k: usize, worth: f64| own[k] > (OWN * with[k]).clamp(0.0, worth);
-        stays(0, WORTH) || own[0] > 0.0 && stays(1, 2.0 * WORTH)
+        stays(0, TOLD) || own[0] > 0.0 && stays(1, 2.0 * TOLD)
     }
 
     /// Whether a candidate is nearer not only because it makes noise smooth.

@@ -5,7 +5,7 @@ use super::{REFIT, Walk, settled};
 use crate::board::{self, Fitted};
 use identify::{
     Rig,
-    fit::{FitError, binding, starts},
+    fit::{FitError, binding},
 };
 
 /// A model with what was loose in it.
@@ -26,8 +26,7 @@ impl Walk<'_> {
         let rig = board::loosened(&self.best.rig, &self.strayed);
         let held = self.board.loose.clone();
         self.board.loose.extend(self.strayed.iter().cloned());
-        let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
-        let fitted = self.board.fit(&rig, Some((&x, &self.best.pieces)), &REFIT)?;
+        let fitted = self.board.fit_near(&rig, &self.best.pieces, &REFIT)?;
         let better = self.board.trained(&fitted) < self.board.trained(&self.best);
         if better && self.board.strayed(&fitted).is_empty() {
             self.best = fitted;
@@ -62,8 +61,7 @@ impl Walk<'_> {
             free: rig.free.iter().filter(|free| !names.contains(free)).cloned().collect(),
             ..rig
         };
-        let x = starts::nominal(&self.board.problem(&rig, |_| true)?);
-        let fitted = self.board.fit(&rig, Some((&x, &self.best.pieces)), &REFIT)?;
+        let fitted = self.board.fit_near(&rig, &self.best.pieces, &REFIT)?;
         self.best = settled(&mut self.board, fitted, seed)?;
         self.strayed.extend(held);
         self.short.loose.clone_from(&self.board.loose);
