@@ -13,20 +13,21 @@ const MOVING: f64 = 4.0;
 /// Values that spread by so many standard errors of a variance more than their noise lets them are not at rest.
 const SPREAD: f64 = 4.0;
 
-/// `data` as its motion is simulated: an imposed one rests where it does, and an input is held where it is and laid smooth
-/// elsewhere.
+/// `data` as its motion is simulated: an imposed one rests where it does, and an input is as its band has it or, where it has
+/// none, held where it is and laid smooth elsewhere.
 pub(crate) fn still(data: &Data) -> Data {
-    let mut still = rested(data);
-    if data.force.is_none() {
-        let noise = crate::chatter::noise_of_input(data);
-        // A command that answers its encoder drives the plant as it is.
-        let answers = !data.reference.is_empty() || noise < data.noise_of_input();
-        if !answers {
-            still.input = crate::input::smoothed(&still.input, noise);
-        }
-        still.averaged = Some(noise);
+    if data.force.is_some() {
+        return rested(data);
     }
-    still
+    let noise = crate::chatter::noise_of_input(data);
+    let rested = Data { averaged: Some(noise), ..rested(data) };
+    // A command that answers its encoder drives the plant as it is.
+    if !data.reference.is_empty() || noise < data.noise_of_input() {
+        return rested;
+    }
+    let smooth = crate::input::smoothed(&rested.input, noise);
+    let (input, band) = crate::input::banded(&data.input, noise, smooth);
+    Data { input, band, ..rested }
 }
 
 /// `data` with the imposed displacement, or the input, replaced by its mean wherever it rests.
@@ -88,7 +89,11 @@ fn moves(run: &[f64], noise: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Data, moves, rested, still};
-    use crate::walk::made;
+    use crate::{board::Board, walk::made};
+    use identify::{
+        Hold, Rig,
+        fit::{Seen, search::Patience},
+    };
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
@@ -103,14 +108,15 @@ mod tests {
 
     #[test]
     fn an_input_is_averaged_where_it_is_held_and_the_plant_rests() {
-        // 2 N for a while, in which the plant goes fast, and once more while it rests; else a sine of 1 N.
+        // 2 N for a while, in which the plant goes fast, and once more while it rests; else 1 N to either side, which has no band.
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let mut data = made::data();
         let (moves, rests) = (1000..1080, 3000..3200);
         for i in 0..data.input.len() {
             let drawn: f64 = StandardNormal.sample(&mut random);
             let held = moves.contains(&i) || rests.contains(&i);
-            data.input[i] = 0.01 * drawn + if held { 2.0 } else { (0.01 * i as f64).sin() };
+            data.input[i] =
+                0.01 * drawn + if held { 2.0 } else { (0.01 * i as f64).sin().signum() };
         }
         let seen = data.displacement.as_mut().expect("it is seen");
         let there = seen.values[rests.start];
@@ -130,5 +136,45 @@ mod tests {
         // What is known of its noise is what it was.
         assert_eq!(still.noise_of_input(), shown);
         assert!((shown - 0.01).abs() < 1e-3, "{shown} N");
+    }
+
+    #[test]
+    fn a_mass_is_not_heavier_for_the_noise_of_its_input() {
+        // 50 g on 3 N/m with 0.5 N·s/m under a force that is recorded with 0.4 N of noise: a heavier mass lets less of it through.
+        let mut random = ChaCha8Rng::seed_from_u64(12);
+        let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
+        let time: Vec<f64> = (0..8000).map(|i| 0.005 * f64::from(i)).collect();
+        let tones = [(0.5, 2.0), (0.1, 14.0)];
+        let force = |t: f64, (x, w): (f64, f64)| {
+            let (s, c) = f64::sin_cos(w * t);
+            x * ((3.0 - 0.05 * w * w) * s + 0.5 * w * c)
+        };
+        let force = |t: f64| tones.iter().map(|tone| force(t, *tone)).sum::<f64>();
+        let input = time.iter().map(|t| force(*t) + 0.4 * noise()).collect();
+        let way = |t: f64| tones.iter().map(|(x, w)| x * (w * t).sin()).sum::<f64>();
+        let seen = time.iter().map(|t| way(*t) + 1e-3 * noise()).collect();
+        let as_recorded = Data::driven(time, input, Hold::Smooth, Seen::new("position", seen, 0.0));
+        let rig = Rig { free: vec!["mass".into(), "sigma_2".into()], ..made::rig(0.05) };
+        let off = |data: &Data| {
+            let mut board = Board::of(&rig, data, 1, Vec::new()).unwrap();
+            let mut fitted = board.judged(&rig, None).unwrap();
+            for _ in 0..3 {
+                board.refloor(&fitted, 0).unwrap();
+                let from = (fitted.x.clone(), fitted.pieces.clone());
+                fitted = board
+                    .fit(
+                        &fitted.rig,
+                        Some((&from.0, &from.1)),
+                        &Patience { misfit: 0.05, share: 1e-6, simulations: 20 },
+                    )
+                    .unwrap();
+            }
+            let level = board.trained_level(&fitted);
+            (fitted.rig.value("mass").unwrap() / 0.05 - 1.0, level)
+        };
+        let (heavier, _) = off(&Data { averaged: Some(0.4), ..as_recorded.clone() });
+        let (mass, level) = off(&still(&as_recorded));
+        assert!(heavier > 0.02 && mass.abs() < 0.01, "{mass} off, {heavier} as recorded");
+        assert!((level - 1.0).abs() < 0.06, "{level} floors");
     }
 }

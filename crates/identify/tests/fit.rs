@@ -1,9 +1,11 @@
 //! What a fit says: values, intervals, what a record cannot tell, and how it ended.
 
 use identify::{
-    Hold, Rig,
+    Effect, Hold, Rig,
     fit::{
-        Data, Fit, FitError, Options, Seen, Way, binding, fit, hold, models,
+        Data, Fit, FitError, Options, Seen, Way, binding,
+        data::Band,
+        fit, hold, models,
         problem::{Piece, Problem},
         search::End,
         simulate,
@@ -85,9 +87,41 @@ fn found_within(fit: &Fit, rig: &Rig, errors: f64) {
 
 #[test]
 fn residuals_are_freed_of_what_the_inputs_noise_does() {
+    for hold in [Hold::ZeroOrder, Hold::Linear, Hold::Smooth] {
+        for late in [None, Some(0.0013)] {
+            for edge in [None, Some(0.3)] {
+                freed(hold, late, edge);
+            }
+        }
+    }
+}
+
+/// By how much two errors so many samples apart go together, of the variance of all, where what is above the `edge` of a band
+/// falls as Butterworth's second-order filter has it: from the spectrum, by the sum over its frequencies.
+fn together(edge: f64, apart: usize) -> f64 {
+    let (decay, turn) = ((-edge / 2f64.sqrt()).exp(), edge / 2f64.sqrt());
+    let by = [2.0 * decay * turn.cos(), -decay * decay];
+    let n = 20_000;
+    let one = |k: i32| {
+        let w = std::f64::consts::PI * (f64::from(k) + 0.5) / f64::from(n);
+        let real = 1.0 - by[0] * w.cos() - by[1] * (2.0 * w).cos();
+        let imaginary = by[0] * w.sin() + by[1] * (2.0 * w).sin();
+        let gain = (1.0 - by[0] - by[1]).powi(2) / (real * real + imaginary * imaginary);
+        gain * (w * apart as f64).cos() / f64::from(n)
+    };
+    (0..n).map(one).sum()
+}
+
+/// What the noise of an input, so late [s] and of a band with this `edge`, does is taken out of the residuals.
+fn freed(hold: Hold, late: Option<f64>, edge: Option<f64>) {
     let friction = "name = \"lugre\"\nf_c = 2.0\nf_s = 2.0\nv_s = 0.1\nsigma_0 = 2e4\nsigma_1 = 20.0\nsigma_2 = 0.5";
-    let rig = rig(friction, "\"f_c\"");
-    let data = held(&rig, Hold::ZeroOrder, (20.0, 7));
+    let mut rig = rig(friction, "\"f_c\"");
+    let mut data = held(&rig, hold, (20.0, 7));
+    data.band = edge.map(|edge| Band { edge, inside: vec![true; data.time.len()] });
+    rig.effects.extend(late.map(|delay| Effect {
+        name: "input_delay".to_owned(),
+        values: [("delay".to_owned(), delay)].into(),
+    }));
     let start = Window::new(&data, 110, 122).start;
     let residuals = |data: &Data| {
         let problem =
@@ -98,23 +132,29 @@ fn residuals_are_freed_of_what_the_inputs_noise_does() {
         (piece.residuals, whitening.expect("noise that is seen"))
     };
     let (_, whitening) = residuals(&data);
-    // What each interval's input does to the residuals, by differences of the motions themselves.
+    // What each sample's input does to the residuals, by differences of the motions themselves; that of a few before and
+    // after the window as well.
     let by = |k: usize| {
         let moved = |by: f64| {
             let mut data = data.clone();
-            data.input[110 + k] += by;
+            data.input[108 + k] += by;
             residuals(&data).0
         };
         let (more, less) = (moved(1e-3), moved(-1e-3));
         DVector::from_fn(24, |i, _| 0.05 * (more[i] - less[i]) / 2e-3)
     };
-    let b = DMatrix::from_columns(&(0..11).map(by).collect::<Vec<_>>());
+    let b = DMatrix::from_columns(&(0..16).map(by).collect::<Vec<_>>());
     assert!(b.norm() > 1.0, "the noise is seen: {}", b.norm());
     let mut w = DMatrix::identity(24, 24);
     whitening.apply_all(&mut w);
-    let white = &w * (DMatrix::identity(24, 24) + &b * b.transpose()) * w.transpose();
+    let white = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
+    let errors = DMatrix::from_fn(16, 16, |i, j| {
+        edge.map_or_else(|| white(i, j), |edge| together(edge, i.abs_diff(j)))
+    });
+    let covariance = DMatrix::identity(24, 24) + &b * errors * b.transpose();
+    let white = &w * &covariance * w.transpose();
     let off = (&white - DMatrix::identity(24, 24)).amax();
-    assert!(off < 1e-3, "off by {off}");
+    assert!(off < 1e-3, "off by {off}, {hold:?}, late by {late:?}, {edge:?}");
 }
 
 #[test]

@@ -53,6 +53,17 @@ pub struct Data {
     /// Standard deviation of the noise of the input as it was recorded [its unit], where it was averaged since; else what it
     /// shows.
     pub averaged: Option<f64>,
+    /// The band outside of which that noise was taken away; none where it was not.
+    pub band: Option<Band>,
+}
+
+/// The band of the noise that is left on an input.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Band {
+    /// Where it ends [rad a sample].
+    pub edge: f64,
+    /// At which samples; at the others there is more.
+    pub inside: Vec<bool>,
 }
 
 impl Data {
@@ -69,6 +80,7 @@ impl Data {
             reference: Vec::new(),
             added: Vec::new(),
             averaged: None,
+            band: None,
         }
     }
 
@@ -109,6 +121,7 @@ impl Data {
             reference: values("reference").unwrap_or_default(),
             added: values("added_input").unwrap_or_default(),
             averaged: None,
+            band: None,
         }
     }
 

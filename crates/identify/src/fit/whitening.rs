@@ -8,11 +8,12 @@
 //! 1979, chapter 5).
 
 use super::{
+    data::{Band, Data},
     problem::{Piece, Problem},
     window::Window,
 };
 use crate::Hold;
-use crate::march::{Model, Passage, deviations, passages};
+use crate::march::{Model, Passage, deviations, errors, passages};
 use nalgebra::DMatrix;
 
 /// So many columns are made white at once.
@@ -20,9 +21,6 @@ const AT_ONCE: usize = 32;
 
 /// A step of the input is a jump for as much as it is more than so many times those beside it, or the noise.
 const JUMP: f64 = 4.0;
-
-/// On the errors of so many samples of the input an interval depends at most.
-const ERRORS: usize = 3;
 
 /// The innovations of a window's residuals.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,6 +126,46 @@ impl Whitening {
     }
 }
 
+/// How the errors of an input hang together from sample to sample: e_k = a_1 e_{k−1} + a_2 e_{k−2} + b w, with w white.
+struct Colour {
+    by: [f64; 2],
+    /// The b [the input's unit].
+    new: f64,
+}
+
+impl Colour {
+    /// White where all of the noise is there, and else as dense as that below the edge of its band, above which it falls with the
+    /// fourth power of the frequency, as Butterworth's second-order filter has it.
+    fn of(data: &Data, window: &Window, noise: f64) -> Self {
+        let inside =
+            |band: &&Band| band.inside[window.first..window.end].iter().all(|inside| *inside);
+        let Some(band) = data.band.as_ref().filter(inside) else {
+            return Self { by: [0.0; 2], new: noise };
+        };
+        // The poles e^{ω(−1 ± i)/√2}.
+        let part = band.edge / 2f64.sqrt();
+        let by = [2.0 * (-part).exp() * part.cos(), -(-2.0 * part).exp()];
+        Self { by, new: noise * (1.0 - by[0] - by[1]) }
+    }
+
+    /// How many errors are kept of so many that are.
+    fn remembers(&self, kept: usize) -> usize {
+        if self.by == [0.0; 2] { kept } else { kept.max(2) }
+    }
+
+    /// The covariance of two errors so many samples apart.
+    fn together(&self, apart: usize) -> f64 {
+        let [one, two] = self.by;
+        let own =
+            self.new * self.new * (1.0 - two) / ((1.0 + two) * ((1.0 - two).powi(2) - one * one));
+        let mut all = [own, own * one / (1.0 - two)];
+        for _ in 0..apart {
+            all = [all[1], one * all[1] + two * all[0]];
+        }
+        all[0]
+    }
+}
+
 /// The sum of the products.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
@@ -148,7 +186,7 @@ impl Problem<'_> {
             return None;
         }
         let model = self.model(x);
-        match deviations(&model) + 4 {
+        match deviations(&model) + self.errors(&model) + 1 {
             0..=8 => self.whitened::<8>(&model, (window, piece), (noise, &late)),
             9..=12 => self.whitened::<12>(&model, (window, piece), (noise, &late)),
             13..=20 => self.whitened::<20>(&model, (window, piece), (noise, &late)),
@@ -177,7 +215,12 @@ impl Problem<'_> {
         self.data.hold == Hold::ZeroOrder
     }
 
-    /// The same with numbers that have room for P − 4 deviations.
+    /// On the errors of how many samples an interval's input depends.
+    fn errors(&self, model: &Model<f64>) -> usize {
+        errors(self.data.hold, model.delay().is_some())
+    }
+
+    /// The same with numbers that have room for P − 1 deviations and errors.
     fn whitened<const P: usize>(
         &self,
         model: &Model<f64>,
@@ -185,8 +228,10 @@ impl Problem<'_> {
         (noise, late): (f64, &[f64]),
     ) -> Option<Whitening> {
         let n = deviations(model);
-        // What goes along a line depends on the error at the sample before as well, and what is late on one more.
-        let kept = usize::from(!self.held()) + usize::from(model.delay().is_some());
+        let errors = self.errors(model);
+        let colour = Colour::of(self.data, window, noise);
+        // All but the last error were there before, and two where they hang together.
+        let kept = colour.remembers(errors - 1);
         let states = n + kept;
         let state = self.state(model, window, piece.start);
         let time = &self.data.time[window.first..window.end];
@@ -204,33 +249,43 @@ impl Problem<'_> {
                     None => (passage.states[i], 1.0),
                     Some(c) => (passage.seen[c], weights[c].recip()),
                 };
-                let place = |j: usize| if j < n { j } else { j + ERRORS - 1 - kept };
-                let mut by = DMatrix::from_fn(states + channels, states, |i, j| {
-                    row(i).0[place(j)] * row(i).1
-                });
+                let newest = |i: usize| row(i).0[n + errors - 1] * row(i).1;
+                let of = |i: usize, j: usize| match j.checked_sub(n) {
+                    None => row(i).0[j] * row(i).1,
+                    Some(back) => match (back + errors).checked_sub(kept + 1) {
+                        Some(error) => row(i).0[n + error] * row(i).1,
+                        None => 0.0,
+                    },
+                };
+                let mut by = DMatrix::from_fn(states + channels, states, of);
                 let late = late.get(all.len()).copied().unwrap_or(0.0);
-                let mut new = DMatrix::from_fn(states + channels, 2, |i, j| {
-                    let (by, weight) = row(i);
-                    let by = &by[n..n + ERRORS];
-                    weight
-                        * if j == 0 {
-                            by[ERRORS - 1] * noise
-                        } else {
-                            by.iter().sum::<f64>() * late
-                        }
+                let mut new = DMatrix::from_fn(states + channels, 2, |i, j| match j {
+                    0 => newest(i) * colour.new,
+                    _ => row(i).0[n..n + errors].iter().sum::<f64>() * row(i).1 * late,
                 });
                 // They move on by one.
                 if kept > 0 {
-                    new[(states - 1, 0)] = noise;
+                    new[(states - 1, 0)] = colour.new;
                 }
-                if kept > 1 {
-                    by[(n, n + 1)] = 1.0;
+                for i in 1..kept {
+                    by[(n + i - 1, n + i)] = 1.0;
+                }
+                // The newest hangs on the last two.
+                for (back, by_last) in (1..).zip(colour.by).take(kept) {
+                    for i in 0..states + channels {
+                        by[(i, states - back)] += newest(i) * by_last;
+                    }
+                    by[(states - 1, states - back)] += by_last;
                 }
                 all.push((by, new));
             },
         );
         let mut covariance = DMatrix::zeros(states, states);
-        covariance.view_mut((n, n), (kept, kept)).fill_diagonal(noise * noise);
+        for i in 0..kept {
+            for j in 0..kept {
+                covariance[(n + i, n + j)] = colour.together(i.abs_diff(j));
+            }
+        }
         Whitening::of(covariance, all.into_iter())
     }
 }

@@ -45,23 +45,61 @@ impl<D: Real> Course<D> {
         })
     }
 
-    /// The same with so much more recorded at three samples, of which it depends on the last, if it is `held` or is not late
-    /// on the last two, and on all otherwise.
-    pub(super) fn raised(self, [first, second, last]: [D; 3], held: bool) -> Self {
-        let raised = |own: [D; 2], by: [D; 2]| [own[0] + by[0], own[1] + by[1]];
-        let Some(Knot { share, sides }) = self.knot else {
-            let by = if held { [last; 2] } else { [second, last] };
-            return Self { ends: raised(self.ends, by), knot: None };
-        };
-        let by = if held {
-            [[second, last]; 2]
-        } else {
-            let between = |from: D, to: D| to + (from - to) * share.re();
-            [[between(first, second), between(second, last)], [second; 2]]
-        };
-        let sides = raised(sides, by[1]);
-        Self { ends: raised(self.ends, by[0]), knot: Some(Knot { share, sides }) }
+    /// The same with the errors of recorded samples on it, the oldest first, each of which does what a unit `of` it does.
+    pub(super) fn raised(self, all: &[D], of: impl Fn(usize) -> Course<f64>) -> Self {
+        let mut raised = self;
+        for (k, error) in all.iter().enumerate() {
+            let unit = of(k);
+            let plus = |own: [D; 2], by: [f64; 2]| [0, 1].map(|i| own[i] + *error * by[i]);
+            match (&mut raised.knot, unit.knot) {
+                (Some(knot), Some(own)) => {
+                    raised.ends = plus(raised.ends, unit.ends);
+                    knot.sides = plus(knot.sides, own.sides);
+                }
+                (Some(knot), None) => {
+                    let sides = [unit.at(knot.share.re()); 2];
+                    raised.ends = plus(raised.ends, unit.ends);
+                    knot.sides = plus(knot.sides, sides);
+                }
+                // What jumps or bends on the way where the input does not is as much in the mean.
+                (None, Some(_)) => {
+                    let area =
+                        |([from, to], [a, b]): ([f64; 2], [f64; 2])| 0.5 * (to - from) * (a + b);
+                    raised.ends = plus(raised.ends, [unit.parts(1.0).map(area).sum(); 2]);
+                }
+                (None, None) => raised.ends = plus(raised.ends, unit.ends),
+            }
+        }
+        raised
     }
+}
+
+/// An interval's input is counted from this of so many samples, on no others of which it depends.
+const HERE: usize = 2;
+const ABOUT: usize = 5;
+
+/// On the errors of how many samples the input of an interval depends: one that is held on that of the sample before, one that
+/// goes along a line on those to both sides, one that is smooth on two to either, and one that is late on one more.
+pub fn errors(hold: Hold, late: bool) -> usize {
+    usize::from(late) + [1, 2, 4][ahead(hold)]
+}
+
+/// How many samples ahead of an interval's first one its input depends on.
+fn ahead(hold: Hold) -> usize {
+    match hold {
+        Hold::ZeroOrder => 0,
+        Hold::Linear => 1,
+        Hold::Smooth => 2,
+    }
+}
+
+/// The input of an interval that a unit of the `k`-th error makes, the oldest first; late by this `share` of the interval
+/// beside whole ones.
+pub(super) fn unit(k: usize, hold: Hold, share: Option<f64>) -> Course<f64> {
+    let mut values = [0.0; ABOUT];
+    values[HERE + ahead(hold) + 1 + k - errors(hold, share.is_some())] = 1.0;
+    let drive = Drive::Recorded { values: &values, first: HERE, hold };
+    course(&drive, 0, &[], share.map(|share| (share, &[0.0, 1.0, 2.0][..])))
 }
 
 /// How fast the input changes at sample `i`, over a few samples; 0 where the controller makes it.

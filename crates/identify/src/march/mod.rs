@@ -25,6 +25,7 @@ mod tape;
 
 pub use contact::Contact;
 pub(crate) use contact::deflection;
+pub use course::errors;
 pub use drive::{Drive, Feedback};
 pub use dual::{Dual, Real};
 pub use observer::{Measured, observe};

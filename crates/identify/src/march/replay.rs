@@ -2,7 +2,7 @@
 
 use super::{
     Drive, Dual, Model, Real, Start, Tape,
-    course::{Course, course, rate},
+    course::{Course, course, errors, rate, unit},
     plant::Stage,
     run::{begun, bulge},
     stage::{Base, excess},
@@ -84,12 +84,11 @@ pub fn replay<const P: usize>(
 
 /// How the deviations of a motion go on from one sample to the next, a small one of the states s by A, one of the input's
 /// w by g: s⁺ = A s + Σ g w; and what is seen of them there, y⁺ = C s + Σ d w, y being what the sensors show of displacement
-/// and velocity, over the errors of three samples of the input, of which one that is held depends on the last, one that goes
-/// along a line on the last two, and one that is late on one more. The states are displacement, velocity, those of contact and
-/// effects, and the sensors' memories.
+/// and velocity, over the errors of so many samples of the input as [`errors`] says. The states are displacement, velocity,
+/// those of contact and effects, and the sensors' memories.
 #[derive(Debug, Clone)]
 pub struct Passage<const P: usize> {
-    /// The new states, each with its derivatives by the old ones and, after them, by the three errors.
+    /// The new states, each with its derivatives by the old ones and, after them, by the errors, the oldest first.
     pub states: Vec<[f64; P]>,
     /// The same of displacement and velocity as they are seen.
     pub seen: [[f64; P]; 2],
@@ -100,8 +99,8 @@ pub fn deviations<D: Real>(model: &Model<D>) -> usize {
     2 + model.states() + model.effects.len()
 }
 
-/// Goes over the steps of `tape` with derivatives from sample to sample alone. There have to be four places more than
-/// [`deviations`].
+/// Goes over the steps of `tape` with derivatives from sample to sample alone. There has to be a place more than for
+/// [`deviations`] and [`errors`].
 pub fn passages<const P: usize>(
     model: &Model<f64>,
     (drive, time): (&Drive<'_>, &[f64]),
@@ -120,7 +119,11 @@ pub fn passages<const P: usize>(
         z: start.z.iter().copied().map(Dual::from).collect(),
         shown: start.shown,
     };
-    let held = matches!(drive, Drive::Recorded { hold: Hold::ZeroOrder, .. });
+    let hold = match drive {
+        Drive::Recorded { hold, .. } => *hold,
+        Drive::Controlled(_) => Hold::ZeroOrder,
+    };
+    let of = errors(hold, model.delay().is_some());
     let place = |place: usize, number: &Dual<P>| Dual::variable(number.re, place);
     let mut next = 0;
     for i in 0..tape.until.len() {
@@ -133,8 +136,11 @@ pub fn passages<const P: usize>(
         }
         let before = [model.displacement(state.q, &state.z), state.v, state.q];
         let delay = model.delay().map(|delay| (delay, time));
-        let noise = [0, 1, 2].map(|k| Dual::variable(0.0, 2 + n + memory.len() + k));
-        let course = course(drive, i, &[before[0]], delay).raised(noise, held);
+        let first = 2 + n + memory.len();
+        let noise: Vec<Dual<P>> = (0..of).map(|k| Dual::variable(0.0, first + k)).collect();
+        let dt = time[i + 1] - time[i];
+        let share = model.delay().map(|delay| (delay.re / dt).rem_euclid(1.0));
+        let course = course(drive, i, &[before[0]], delay).raised(&noise, |k| unit(k, hold, share));
         walker.interval(
             &mut state,
             &tape.steps[next..tape.until[i]],
@@ -143,7 +149,6 @@ pub fn passages<const P: usize>(
         );
         next = tape.until[i];
         let shown = model.displacement(state.q, &state.z);
-        let dt = time[i + 1] - time[i];
         let slope = (state.v - before[1]) / dt;
         let rate = |i: usize| model.balance.gain.re() * rate(drive, time, i);
         if i == 0 {
