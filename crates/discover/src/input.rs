@@ -1,9 +1,14 @@
 //! A recorded input with less of its sensor's noise.
 //!
 //! Noise that never drove the plant shakes the simulated bristle: one under load creeps, and friction seems softer than it
-//! is. Where an input goes smoothly the samples around say what it is. Around each sample a parabola is laid through
-//! ever more of them, for as long as it leaves what noise does (Goldenshluger and Nemirovski, Mathematical Methods of
-//! Statistics 6, 1997, 135–170); across a jump it never does.
+//! is. It also moves what is fitted to where less of it is let through, to a larger mass or a softer bristle (errors in
+//! variables), by far more than a standard error.
+//!
+//! An input that has a band, as tones or a chirp have, is what one filter passes; how dense the noise that is left there is,
+//! and how it hangs together, is known. One that jumps has none: where it goes smoothly the samples around say what it is. Around
+//! each sample a parabola is laid through ever more of them, for as long as it leaves what noise does (Goldenshluger and Nemirovski,
+//! Mathematical Methods of Statistics 6, 1997, 135–170); across a jump it never does. Its width hangs on the noise itself, so
+//! that more of that is left than the width says.
 
 use identify::fit::data::Band;
 
