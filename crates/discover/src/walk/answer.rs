@@ -367,4 +367,28 @@ mod tests {
         assert!(!surely_worse(&of(1.02, 0.2), &of(0.98, 0.008)), "in half of them it is better");
         assert!(!surely_worse(&of(0.982, 0.01), &of(0.98, 0.01)), "0.002 of them are seven");
     }
+
+    #[test]
+    fn what_holds_a_value_does_not_say_that_it_is_wrong() {
+        // 2.2 kg of which the record tells no more than a twentieth, given as 2 kg.
+        let data = made::data();
+        let free = Rig { free: vec!["mass".to_owned()], ..made::rig(2.2) };
+        let error = |walk: &crate::walk::Walk<'_>| {
+            let values = walk.values(&made::rig(2.0), &|_| false).unwrap();
+            (values.0[0].standard_error, values.1)
+        };
+        for held in [false, true] {
+            let loose = if held { vec![("mass".to_owned(), 2.0)] } else { Vec::new() };
+            let mut walk = made::walk(&free, &data, &[]);
+            // What it leaves beside more noise is less, and tells more.
+            for _ in 0..4 {
+                walk.board.weights.displacement *= 0.1 / error(&walk).0;
+                walk.best = walk.board.judged(&free, None).unwrap();
+            }
+            (walk.board.loose, walk.given.free) = (loose, free.free.clone());
+            let (told, wrong) = error(&walk);
+            assert!((told < 0.05) == held, "± {told} kg");
+            assert!(wrong.is_empty(), "{held}");
+        }
+    }
 }
