@@ -94,6 +94,9 @@ const KNOWN: f64 = 0.03;
 const SHARP: f64 = 100.0;
 const SPARE: usize = 2;
 
+/// A band of more than this share of all is told no better than by the samples around each.
+const NARROW: f64 = 0.25;
+
 /// No more than this share of a record may have more than its band.
 const OUTSIDE: f64 = 0.3;
 
@@ -122,7 +125,8 @@ pub(crate) fn banded(u: &[f64], noise: f64, otherwise: Vec<f64>) -> (Vec<f64>, O
         }
         all.push((filter, Band { edge: edge(half), inside }));
     }
-    let Some((filter, band)) = all.pop() else { return (otherwise, None) };
+    let narrow = |(_, band): &(Filter, Band)| band.edge < NARROW * std::f64::consts::PI;
+    let Some((filter, band)) = all.pop().filter(narrow) else { return (otherwise, None) };
     let one = |(i, value): (usize, f64)| if band.inside[i] { filter.at(u, i) } else { value };
     (otherwise.into_iter().enumerate().map(one).collect(), Some(band))
 }
