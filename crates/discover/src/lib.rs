@@ -9,6 +9,7 @@
 //!
 //! Read first: [`discover`], the whole way; [`Discovery`], its answer.
 
+mod band;
 mod board;
 mod chatter;
 mod confirm;

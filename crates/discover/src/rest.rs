@@ -26,7 +26,7 @@ pub(crate) fn still(data: &Data) -> Data {
         return rested;
     }
     let smooth = crate::input::smoothed(&rested.input, noise);
-    let (input, band) = crate::input::banded(&data.input, noise, smooth);
+    let (input, band) = crate::band::banded(&data.input, noise, smooth);
     Data { input, band, ..rested }
 }
 

@@ -281,11 +281,8 @@ impl Problem<'_> {
             },
         );
         let mut covariance = DMatrix::zeros(states, states);
-        for i in 0..kept {
-            for j in 0..kept {
-                covariance[(n + i, n + j)] = colour.together(i.abs_diff(j));
-            }
-        }
+        let before = DMatrix::from_fn(kept, kept, |i, j| colour.together(i.abs_diff(j)));
+        covariance.view_mut((n, n), (kept, kept)).copy_from(&before);
         Whitening::of(covariance, all.into_iter())
     }
 }

@@ -51,23 +51,16 @@ impl<D: Real> Course<D> {
         for (k, error) in all.iter().enumerate() {
             let unit = of(k);
             let plus = |own: [D; 2], by: [f64; 2]| [0, 1].map(|i| own[i] + *error * by[i]);
-            match (&mut raised.knot, unit.knot) {
-                (Some(knot), Some(own)) => {
-                    raised.ends = plus(raised.ends, unit.ends);
-                    knot.sides = plus(knot.sides, own.sides);
-                }
-                (Some(knot), None) => {
-                    let sides = [unit.at(knot.share.re()); 2];
-                    raised.ends = plus(raised.ends, unit.ends);
-                    knot.sides = plus(knot.sides, sides);
-                }
-                // What jumps or bends on the way where the input does not is as much in the mean.
-                (None, Some(_)) => {
-                    let area =
-                        |([from, to], [a, b]): ([f64; 2], [f64; 2])| 0.5 * (to - from) * (a + b);
-                    raised.ends = plus(raised.ends, [unit.parts(1.0).map(area).sum(); 2]);
-                }
-                (None, None) => raised.ends = plus(raised.ends, unit.ends),
+            // What jumps or bends on the way where the input does not is as much in the mean.
+            let area = |([from, to], [a, b]): ([f64; 2], [f64; 2])| 0.5 * (to - from) * (a + b);
+            let ends = match (&raised.knot, &unit.knot) {
+                (None, Some(_)) => [unit.parts(1.0).map(area).sum(); 2],
+                _ => unit.ends,
+            };
+            raised.ends = plus(raised.ends, ends);
+            if let Some(knot) = &mut raised.knot {
+                let own = unit.knot.map(|own| own.sides);
+                knot.sides = plus(knot.sides, own.unwrap_or([unit.at(knot.share.re()); 2]));
             }
         }
         raised
