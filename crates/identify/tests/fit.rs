@@ -87,6 +87,9 @@ fn found_within(fit: &Fit, rig: &Rig, errors: f64) {
 
 #[test]
 fn residuals_are_freed_of_what_the_inputs_noise_does() {
+    // Of a density 1/(1 + (ω/ω_c)⁴) there is ω_c/(2√2) in all, of white noise's π over all frequencies.
+    let in_all = together(0.1, 0) * 8f64.sqrt() / 0.1;
+    assert!((in_all - 1.0).abs() < 0.05, "{in_all} of Butterworth's");
     for hold in [Hold::ZeroOrder, Hold::Linear, Hold::Smooth] {
         for late in [None, Some(0.0013)] {
             for edge in [None, Some(0.3)] {

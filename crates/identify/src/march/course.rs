@@ -58,9 +58,9 @@ impl<D: Real> Course<D> {
                 _ => unit.ends,
             };
             raised.ends = plus(raised.ends, ends);
-            if let Some(knot) = &mut raised.knot {
-                let own = unit.knot.map(|own| own.sides);
-                knot.sides = plus(knot.sides, own.unwrap_or([unit.at(knot.share.re()); 2]));
+            // Of two errors within an interval that bends or jumps a unit of each does so there as well.
+            if let (Some(knot), Some(own)) = (&mut raised.knot, unit.knot) {
+                knot.sides = plus(knot.sides, own.sides);
             }
         }
         raised
