@@ -8,6 +8,7 @@ mod begin;
 pub mod binding;
 pub mod blocks;
 mod bootstrap;
+mod colour;
 pub mod data;
 pub mod descent;
 mod displacement;

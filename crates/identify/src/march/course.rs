@@ -215,7 +215,7 @@ fn late<D: Real>(
 
 #[cfg(test)]
 mod tests {
-    use super::{super::Dual, Course, Drive, Hold, course};
+    use super::{super::Dual, Course, Drive, Hold, course, unit};
 
     #[test]
     fn a_held_input_that_comes_late_jumps_where_it_does() {
@@ -279,6 +279,18 @@ mod tests {
                 assert_eq!(late.at(1e-9), own.at(1e-9), "{hold:?} {i}");
                 assert_eq!(late.at(1.0), own.at(1.0), "{hold:?} {i}");
             }
+        }
+    }
+
+    #[test]
+    fn an_error_that_jumps_where_the_input_does_not_is_as_much_in_the_mean() {
+        let values = [2.0; 5];
+        let drive = Drive::Recorded { values: &values, first: 1, hold: Hold::ZeroOrder };
+        let late = course(&drive, 1, &[], Some((0.03, &[0.0, 0.1, 0.2][..])));
+        let raised = late.raised(&[1.0, 10.0], |k| unit(k, Hold::ZeroOrder, Some(0.3)));
+        // Of the sample before it has three tenths, of its own seven.
+        for share in [0.1, 0.5, 1.0] {
+            assert!((raised.at(share) - 9.3).abs() < 1e-12, "{}", raised.at(share));
         }
     }
 
