@@ -134,6 +134,62 @@ fn friction_that_grows_takes_its_drop_along_or_leaves_it_as_it_is() {
 }
 
 #[test]
+fn what_grows_as_a_whole_takes_viscous_friction_along() {
+    let share = 0.4;
+    let whole = [
+        format!("name = \"friction_drift\"\namount = {share}\ntau = 1e-3\nform = 4"),
+        format!(
+            "name = \"position_friction\"\nsine = 0.0\ncosine = {share}\nwavenumber = 1e-9\nform = 4"
+        ),
+        format!("name = \"coulomb_asymmetry\"\nratio = {share}\nform = 2"),
+    ];
+    let bristles = "f_c = 2.0\nf_s = 2.0\nv_s = 0.1\nsigma_0 = 1e4\nsigma_1 = 10.0\nsigma_2 = 40.0";
+    for (place, effect) in whole.iter().enumerate() {
+        for friction in [
+            &format!("name = \"lugre\"\n{bristles}"),
+            "name = \"coulomb\"\nf_c = 2.0\nsigma_2 = 40.0",
+        ] {
+            for drive in [8.0, -8.0] {
+                // An asymmetry is as much less on the way back.
+                let more = if place == 2 { share * f64::signum(drive) } else { share };
+                let exact = (8.0 / (1.0 + more) - 2.0) / 40.0 * f64::signum(drive);
+                let v = ends(&axis(friction, effect), drive);
+                assert!((v / exact - 1.0).abs() < 1e-6, "{effect}: {v} m/s for {exact} m/s");
+                // So much of it may be an effect.
+                let without = friction.replace("\nsigma_2 = 40.0", "");
+                let beside = format!("{effect}\n[[effect]]\nname = \"viscous\"\nsigma_2 = 40.0");
+                let v = ends(&axis(&without, &beside), drive);
+                assert!((v / exact - 1.0).abs() < 1e-6, "{beside}: {v} m/s for {exact} m/s");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_slips_at_another_level_each_way_is_as_stiff_both_ways() {
+    let bristles = "name = \"lugre\"\nf_c = 2.0\nf_s = 3.0\nv_s = 0.1\nsigma_0 = 1e4\nsigma_1 = 10.0\nsigma_2 = 40.0";
+    let with = |form: u8, ratio: f64| {
+        axis(bristles, &format!("name = \"coulomb_asymmetry\"\nratio = {ratio}\nform = {form}"))
+    };
+    for drive in [8.0, -8.0] {
+        let v = ends(&with(3, 0.3), drive);
+        let level = 2.0 + (-(v / 0.1_f64).powi(2)).exp();
+        let held = level * (1.0 + 0.3 * v.signum()) + 40.0 * v.abs();
+        assert!((held - 8.0).abs() < 1e-6, "{held} N at {v} m/s");
+    }
+    // Under 0.5 N bristles bend by 50 µm, whatever the level at which they slip; in the first form they are stiffer.
+    let bends = |form: u8, ratio: f64| moved(&with(form, ratio), 0.5, 4000, 0.0).q[3999];
+    let own = bends(3, 0.0);
+    assert!((bends(3, 0.3) / own - 1.0).abs() < 0.2 && bends(1, 0.3) < 0.8 * own, "{own} m");
+    // Without bristles they are one.
+    let dry = |form: u8| {
+        let effect = format!("name = \"coulomb_asymmetry\"\nratio = 0.3\nform = {form}");
+        moved(&axis("name = \"coulomb\"\nf_c = 2.0", &effect), -2.5, 400, 0.3)
+    };
+    assert_eq!(dry(1).q, dry(3).q);
+}
+
+#[test]
 fn a_wave_with_its_overtone_gives_back_what_it_took() {
     let (sine, cosine, k, share, phase) = (0.3, -0.2, 9.0, 0.4, 2.0);
     let cogging = format!(

@@ -1,6 +1,6 @@
 //! The nearest effect in its other forms, where the one in which it was looked for does not do.
 
-use super::{ABOVE, FIRST, Walk, joints::AS_NEAR, loads::dragged};
+use super::{ABOVE, FIRST, Walk, answer::surely_worse, joints::AS_NEAR, loads::dragged};
 use crate::{board::Fitted, model::Candidate};
 use identify::{
     Rig,
@@ -25,7 +25,7 @@ const KINDS: usize = 3;
 /// So is a load whose friction builds up on a way.
 const NOT_FAR: f64 = 1.5;
 
-/// Another form must lower what is left to so much of what it was.
+/// What has more of the same must lower what is left to so much of what it was.
 const LOWER: f64 = 0.8;
 
 impl Walk<'_> {
@@ -46,7 +46,7 @@ impl Walk<'_> {
         let joint = joint.filter(|joint| level(joint) < NOT_FAR * least);
         let leading = self.leading(all, context);
         let other =
-            leading.into_iter().filter_map(|c| self.best_of(c, &forms(c.kind, &c.fitted.rig)));
+            leading.into_iter().filter_map(|c| self.best_form(c, &forms(c.kind, &c.fitted.rig)));
         let overtones = waves.filter_map(|wave| self.overtone(wave));
         other.chain(overtones).chain(joint.and_then(|joint| self.loaded(joint, context))).collect()
     }
@@ -121,8 +121,23 @@ impl Walk<'_> {
     /// The nearest of a candidate's variants, refitted, if it lowers what the candidate leaves.
     pub(super) fn best_of(&self, candidate: &Candidate, variants: &[Rig]) -> Option<Candidate> {
         let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
-        let left = level(candidate);
-        if left < ABOVE {
+        let best = self.nearest_of(candidate, variants)?;
+        (level(&best) < LOWER * level(candidate)).then_some(best)
+    }
+
+    /// The same of variants that need no more numbers than it: those need only be surely nearer.
+    fn best_form(&self, candidate: &Candidate, forms: &[Rig]) -> Option<Candidate> {
+        let judged = |c: &Candidate| self.judged(&c.fitted.blocks);
+        let best = self.nearest_of(candidate, forms)?;
+        let (own, other) = (judged(candidate), judged(&best));
+        let nearer = other.level() < LOWER * own.level() || surely_worse(&own, &other);
+        nearer.then_some(best)
+    }
+
+    /// The nearest of a candidate's variants, refitted; none where it leaves too little to tell.
+    fn nearest_of(&self, candidate: &Candidate, variants: &[Rig]) -> Option<Candidate> {
+        let level = |c: &Candidate| self.judged(&c.fitted.blocks).level();
+        if level(candidate) < ABOVE {
             return None;
         }
         let refitted = |rig: &Rig| {
@@ -130,8 +145,7 @@ impl Walk<'_> {
             Some(Candidate { kind: candidate.kind, fitted })
         };
         let found: Vec<Candidate> = variants.par_iter().filter_map(refitted).collect();
-        let best = found.into_iter().min_by(|a, b| level(a).total_cmp(&level(b)))?;
-        (level(&best) < LOWER * left).then_some(best)
+        found.into_iter().min_by(|a, b| level(a).total_cmp(&level(b)))
     }
 }
 
@@ -273,6 +287,24 @@ mod tests {
         assert!(alone > 1.5 && left < 1.2, "{alone} as Carreau's, {left} as Eyring's");
         assert_eq!(found.fitted.rig.value("sublinear_drag.form"), Some(2.0));
         assert!(walk.other_forms(std::slice::from_ref(found), &context).is_empty(), "it is down");
+    }
+
+    #[test]
+    fn a_form_that_is_surely_nearer_is_taken_though_it_lowers_little() {
+        let data = taken(|_, v| 0.5 * v.signum() + 13.0 * 0.05 * (v / 0.05).asinh());
+        let walk = walk(&identify::Rig::parse(DRY).unwrap(), &data, &[]);
+        let mut carreau = with(&walk.best.rig, Kind::SublinearDrag, &[13.0, 0.05, 0.9, 1.0]);
+        carreau.free.extend(["v_0", "bend"].map(|key| format!("sublinear_drag.{key}")));
+        let fitted = walk.board.fit(&carreau, None, &super::FIRST).unwrap();
+        let candidate =
+            Candidate { kind: Kind::SublinearDrag, fitted: walk.ended(fitted).unwrap() };
+        let forms = super::forms(candidate.kind, &candidate.fitted.rig);
+        let level = |c: &Candidate| walk.judged(&c.fitted.blocks).level();
+        let found = walk.best_form(&candidate, &forms).expect("a form");
+        assert_eq!(found.fitted.rig.value("sublinear_drag.form"), Some(2.0));
+        let share = level(&found) / level(&candidate);
+        assert!((super::LOWER..0.98).contains(&share), "{share} of {}", level(&candidate));
+        assert!(walk.best_of(&candidate, &forms).is_none(), "what needs more must lower more");
     }
 
     #[test]

@@ -43,14 +43,15 @@ pub(super) fn is_free(rig: &Rig, key: &str) -> bool {
     rig.free.iter().any(|name| name == key)
 }
 
-/// Friction of level `f_c` that grows by a `share` of itself, in one of three forms: 1, as a contact that presses harder,
+/// Friction of level `f_c` that grows by a `share` of itself, in one of four forms: 1, as a contact that presses harder,
 /// whose stiffness grows as well; 2, by the level at which it slips alone, at each speed by its own; 3, by this share of
-/// `f_c` at any speed, so that a drop towards `f_c` stays what it is.
+/// `f_c` at any speed, so that a drop towards `f_c` stays what it is; 4, as 1, and viscous friction with it.
 pub(super) fn grows<D: Real>(form: f64, share: D, f_c: D) -> Act<D> {
     match form {
         form if form < 1.5 => Act::More(share),
         form if form < 2.5 => Act::Level(share),
-        _ => Act::Rise(share * f_c),
+        form if form < 3.5 => Act::Rise(share * f_c),
+        _ => Act::MoreOfAll(share),
     }
 }
 

@@ -23,7 +23,7 @@ impl Law for FrictionDrift {
         test: 0.1,
     };
 
-    const FORMS: &[f64] = &[1.0, 2.0, 3.0];
+    const FORMS: &[f64] = &[1.0, 2.0, 3.0, 4.0];
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
         grows(p[2].re(), p[0] * (-(-p[1].recip() * at.t).exp() + 1.0), at.f_c())

@@ -84,6 +84,12 @@ pub enum Act<D> {
     More(D),
     /// F grows by this share of itself where it is positive, and falls where it is negative [1].
     Skew(D),
+    /// As [`Act::More`], of F and of all viscous friction [1].
+    MoreOfAll(D),
+    /// As [`Act::Skew`], of F and of all viscous friction [1].
+    SkewOfAll(D),
+    /// Viscous friction beside that of the model [N].
+    Drag(D),
     /// The level at which the contact slips is higher by so much [N]: bristles slip at a larger deflection, what has
     /// none grows as a whole.
     Rise(D),
@@ -109,6 +115,10 @@ pub struct Acts<D> {
     pub level: Option<D>,
     /// Of all [`Act::Dry`] [N].
     pub dry: Option<D>,
+    /// Of all [`Act::Drag`] [N].
+    pub drag: Option<D>,
+    /// By what share viscous friction grows in both directions, and by what share as it goes forward [1].
+    pub thicker: [Option<D>; 2],
 }
 
 /// Adds to what may be there.
@@ -123,7 +133,16 @@ fn add<D: Real>(sum: &mut Option<D>, more: D) {
 impl<D: Real> Acts<D> {
     /// None at all.
     pub fn none() -> Self {
-        Self { force: None, more: None, skew: None, rise: None, level: None, dry: None }
+        Self {
+            force: None,
+            more: None,
+            skew: None,
+            rise: None,
+            level: None,
+            dry: None,
+            drag: None,
+            thicker: [None; 2],
+        }
     }
 
     /// Adds what an effect does.
@@ -133,6 +152,15 @@ impl<D: Real> Acts<D> {
             Act::Force(force) => add(&mut self.force, force),
             Act::More(more) => add(&mut self.more, more),
             Act::Skew(skew) => add(&mut self.skew, skew),
+            Act::MoreOfAll(more) => {
+                add(&mut self.more, more);
+                add(&mut self.thicker[0], more);
+            }
+            Act::SkewOfAll(skew) => {
+                add(&mut self.skew, skew);
+                add(&mut self.thicker[1], skew);
+            }
+            Act::Drag(drag) => add(&mut self.drag, drag),
             Act::Rise(rise) => add(&mut self.rise, rise),
             Act::Level(level) => add(&mut self.level, level),
             Act::Dry(dry) => add(&mut self.dry, dry),
@@ -155,6 +183,21 @@ impl<D: Real> Acts<D> {
             add(&mut share, skew * way);
         }
         share
+    }
+
+    /// What viscous friction there is beside the model's `own` at the velocity `v` [m/s], and by how much all of it is more
+    /// than it would be [N].
+    pub(crate) fn viscous(&self, own: impl Fn() -> D, v: D) -> Option<D> {
+        let [mut share, skew] = self.thicker;
+        if let Some(skew) = skew {
+            add(&mut share, if v.re() < 0.0 { -skew } else { skew });
+        }
+        let Some(share) = share else { return self.drag };
+        let own = own();
+        Some(match self.drag {
+            Some(drag) => (own + drag) * share + drag,
+            None => own * share,
+        })
     }
 
     /// The friction `own` [N], which goes the `way`, with what it grows by.

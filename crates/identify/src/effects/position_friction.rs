@@ -28,7 +28,7 @@ impl Law for PositionFriction {
         test: 0.1,
     };
 
-    const FORMS: &[f64] = &[1.0, 2.0, 3.0];
+    const FORMS: &[f64] = &[1.0, 2.0, 3.0, 4.0];
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
         grows(p[3].re(), waves([p[0], p[1], p[2], p[4], p[5]], at.q), at.f_c())

@@ -21,6 +21,6 @@ impl Law for Viscous {
     };
 
     fn act<D: Real>(p: &[D], at: &At<D>, _: &[D], _: &mut [D]) -> Act<D> {
-        Act::Force(p[0] * at.v)
+        Act::Drag(p[0] * at.v)
     }
 }

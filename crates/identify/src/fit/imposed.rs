@@ -114,7 +114,8 @@ impl<'a, D: Real> Sliding<'a, D> {
             // What depends on the velocity depends on that of the sample, what slides on that of the step.
             let now = At { v: D::from(v), dt: 0.0, ..now };
             let here = model.acts(&now, aged, other);
-            act = Acts { force: here.force, more: here.more, rise: here.rise, ..act };
+            let Acts { force, more, rise, drag, thicker, .. } = here;
+            act = Acts { force, more, rise, drag, thicker, ..act };
             act.risen(|| model.contact.level(), model.contact.bristles());
         }
         let grown = levels.then(|| raised(u));
@@ -127,6 +128,9 @@ impl<'a, D: Real> Sliding<'a, D> {
         }
         if let Some(force) = act.force {
             all += force;
+        }
+        if let Some(more) = act.viscous(|| model.sigma_2 * v, D::from(v)) {
+            all += more;
         }
         all + model.sigma_2 * v + model.offset
     }

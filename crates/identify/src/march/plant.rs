@@ -136,6 +136,9 @@ impl<D: Real> Model<D> {
         if let Some(more) = all.force {
             force -= more;
         }
+        if let Some(more) = all.viscous(|| self.sigma_2 * v, v) {
+            force -= more;
+        }
         if way != 0.0 {
             let level = |f_c: D| all.level.map_or(f_c, |share| f_c + f_c * share);
             let mut held = dry.map_or(D::from(0.0), |f_c| all.grown(level(f_c), way));
@@ -234,7 +237,10 @@ impl<D: Real> Model<D> {
             first = end;
         }
         all.risen(|| self.contact.level(), self.contact.bristles());
-        let left = all.force.map_or(force, |more| force - more);
+        let mut left = all.force.map_or(force, |more| force - more);
+        if let Some(more) = all.viscous(|| self.sigma_2 * v, v) {
+            left -= more;
+        }
         let way = if left.re() == 0.0 { 0.0 } else { left.re().signum() };
         let share = all.share(way).map_or(D::from(1.0), |share| share + 1.0);
         // Friction that pushes holds nothing: then as if it were the nominal one.
