@@ -13,7 +13,7 @@ use crate::{
     board::{self, Board, Fitted},
     model::{self, Candidate},
     screen::Scored,
-    verdict::{Discovery, Moved, Options},
+    verdict::{Discovery, Moved, Options, Verdict},
 };
 use identify::{
     Hold, Rig,
@@ -39,16 +39,30 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         let (rig, data) = (rig.clone().saying(Some(hold)), as_in(hold));
         walked((&rig, board::loose(&rig)), &data, others, options)
     };
+    let again = |other: Hold| format!("once more, with hold = \"{}\" for the input", other.name());
     let mut others = told.others.map(as_in).to_vec();
     let first = with(told.hold, &others)?;
+    let mut left: Vec<Hold> = first.turned.then_some(told.hold).into_iter().collect();
     let (mut hold, mut found, mut asked) = (told.hold, first.found, first.other);
     while let Some(other) = asked {
-        options.tell(|| format!("once more, with hold = \"{}\" for the input", other.name()));
+        options.tell(|| again(other));
         others.retain(|data| data.hold != other);
         let next = with(other, &others)?;
+        left.extend(next.turned.then_some(other));
         asked = next.other;
         if simpler(&next.found, &found, &rig.free) {
             (hold, found) = (other, next.found);
+        }
+    }
+    // What is turned from far from the truth may be right all the same.
+    for other in left {
+        if !matches!(found.verdict, Verdict::Partial | Verdict::NotInLibrary) {
+            break;
+        }
+        options.tell(|| again(other));
+        let whole = with(other, &[])?.found;
+        if simpler(&whole, &found, &rig.free) {
+            (hold, found) = (other, whole);
         }
     }
     let found = fewest(&rig.clone().saying(Some(hold)), &as_in(hold), options, found)?;

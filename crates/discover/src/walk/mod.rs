@@ -111,6 +111,8 @@ struct End {
     found: Discovery,
     /// The other way of its input in which the record may be simpler.
     other: Option<Hold>,
+    /// Whether it turned to that before it came to an end of its own.
+    turned: bool,
 }
 
 /// Looks for what the model `rig` lacks, and asks whether the record is nearer with its input as in one of the `others`.
@@ -159,8 +161,9 @@ fn walked(
     let refit = walk.wrong_given(rig, &mut effects)?.unwrap_or(refit);
     let before = walk.board.judged(given, None)?;
     let other = if walk.turned.is_some() { walk.turned } else { walk.may_be_other()? };
+    let turned = walk.turned.is_some();
     let found = walk.answer((rig, &before, &refit), (effects, &start), &context)?;
-    Ok(End { found, other })
+    Ok(End { found, other, turned })
 }
 
 impl Walk<'_> {
