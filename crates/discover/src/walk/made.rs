@@ -149,6 +149,11 @@ pub(crate) const DRY: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\
 
 /// x = sin 2t of 2 kg on 3 N/m, viscous by 0.5 N·s/m, under a force that this much is taken from; noise of 0.1 mm.
 pub(crate) fn taken(much: impl Fn(f64, f64) -> f64) -> Data {
+    taken_in_turn(much)
+}
+
+/// The same of a force that hangs on what was before.
+pub(crate) fn taken_in_turn(mut much: impl FnMut(f64, f64) -> f64) -> Data {
     let mut random = ChaCha8Rng::seed_from_u64(7);
     let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
     let time: Vec<f64> = (0..4000).map(|i| 0.005 * f64::from(i)).collect();

@@ -222,7 +222,7 @@ impl Walk<'_> {
             if !self.lasts(before) {
                 break;
             }
-            self.more_springs(options.seed)?;
+            self.all_springs(context.span, options.seed)?;
             self.reclaim()?;
             self.hold_strayed(options.seed)?;
             self.origin = self.beside_given()?;
