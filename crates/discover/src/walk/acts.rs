@@ -91,7 +91,7 @@ impl Walk<'_> {
     }
 
     /// The map of what the named effects only resemble: one that takes away no small part of what they do, where that
-    /// is little.
+    /// is little, and something on blocks that it was not fitted to.
     pub(super) fn resembled(
         &self,
         refit: &Fitted,
@@ -107,13 +107,14 @@ impl Walk<'_> {
         if least > squares(&self.best) {
             return Ok(None);
         }
-        let mut all = self.maps(&self.best, context, Of::Force)?;
+        let mut all = self.maps_judged(&self.best, (context, Of::Force))?;
         // Where the motion is imposed the noise of the displacement turns it to and fro at its ends, where friction is
         // less for that: a right model of such a record left a map of 766.
         if !self.board.imposed() {
-            all.extend(self.maps(&self.best, context, Of::Friction)?);
+            all.extend(self.maps_judged(&self.best, (context, Of::Friction))?);
         }
-        let most = all.into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain));
+        let acts = all.into_iter().filter(|(_, elsewhere)| *elsewhere > 0.0).map(|(map, _)| map);
+        let most = acts.max_by(|a, b| a.gain.total_cmp(&b.gain));
         Ok(most.filter(|map| map.gain > least))
     }
 
@@ -183,6 +184,11 @@ mod tests {
         let maps = walk.maps(&walk.best, &context, super::Of::Force).unwrap();
         assert!(maps[0].gain > super::ACTS, "{}", maps[0].gain);
         let found = walk.faint((&made::rig(2.0), &mut []), &context).unwrap();
+        assert!(found.is_none(), "{found:?}");
+        // Nor does it say that an effect which takes hardly more only resembles what is missing.
+        let with = made::with(&made::rig(2.0), Kind::CurrentBias, &[0.06]);
+        let far = walk.board.judged(&Rig { free: Vec::new(), ..with }, None).unwrap();
+        let found = walk.resembled(&far, &context).unwrap();
         assert!(found.is_none(), "{found:?}");
     }
 
