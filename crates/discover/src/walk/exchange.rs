@@ -3,6 +3,7 @@
 use super::{
     ALIKE, Walk,
     named::{LEAST, SURE, UNSURE, numbers},
+    polish::TOLD,
 };
 use crate::{
     decide::Judged,
@@ -73,6 +74,15 @@ impl Walk<'_> {
         others.all(|(_, effect)| self.plausible(effect.name, context))
     }
 
+    /// Whether how far a joint of this name gives way is surely more than nothing beside all else; of what is no joint, yes.
+    pub(super) fn joint_told(&self, name: &str) -> Result<bool, FitError> {
+        let joint = kind_of(name).filter(|kind| !kind.tried().is_empty());
+        let Some(first) = joint.and_then(|kind| kind.about().keys.first()) else { return Ok(true) };
+        let (values, _) = self.values(&self.given, &|_| false)?;
+        let own = values.iter().find(|value| value.name == format!("{name}.{}", first.name));
+        Ok(own.is_none_or(|own| own.value > TOLD * own.standard_error))
+    }
+
     /// Whether the effect of this name is plausible in the last model.
     pub(super) fn plausible(&self, name: &str, context: &Context) -> bool {
         let others = [&self.best.rig, &self.origin.rig, &self.given];
@@ -113,6 +123,19 @@ mod tests {
     use super::{Judged, gives_way, key_of, takes};
     use crate::walk::made::{BIAS, context, data, found, rig, taken, walk, with};
     use identify::effects::Kind;
+
+    #[test]
+    fn a_joint_of_which_nothing_is_told_is_told_from_one_that_gives_way() {
+        let data = data();
+        let mut walk = walk(&rig(2.0), &data, &[]);
+        let told = |walk: &mut crate::walk::Walk<'_>, compliance: f64| {
+            let gives = with(&rig(2.0), Kind::Compliance, &[compliance, 0.3, 0.3, 1e-3]);
+            walk.best = walk.board.judged(&gives, None).unwrap();
+            walk.joint_told("compliance").unwrap()
+        };
+        assert!(told(&mut walk, 1e-2) && !told(&mut walk, 1e-7));
+        assert!(walk.joint_told("current_bias").unwrap(), "it is no joint");
+    }
 
     #[test]
     fn the_last_effect_is_looked_for_once_more_where_it_has_become_its_opposite() {

@@ -25,8 +25,7 @@ const POLISH: Patience = Patience { misfit: 0.5, share: 2e-5, simulations: 12 };
 const POLISHED: usize = 6;
 const GAINED: f64 = 0.2;
 
-/// A model without an effect is as good if it leaves no more than so many times as much, and may become so if it
-/// leaves no more than this.
+/// A model without an effect is as good if it leaves no more than so many times as much; up to this it may become so.
 const AS_GOOD: f64 = 1.1;
 pub(super) const CLOSE_TO: f64 = 1.4;
 
@@ -36,7 +35,7 @@ const CONTENDS: f64 = 3.0;
 const AS_MUCH: f64 = 0.1;
 
 /// An amount is surely more than nothing from so many standard errors on.
-const TOLD: f64 = 4.0;
+pub(super) const TOLD: f64 = 4.0;
 
 impl<'a> Walk<'a> {
     /// The candidates, and those that contend for the name at their ends: which of them is the nearest, and whether it
@@ -219,14 +218,14 @@ impl<'a> Walk<'a> {
             let Some(place) = effects.iter().position(|effect| effect.name == name) else {
                 continue;
             };
-            let without = self.without(&self.best, effects[place].name)?;
-            let mut without = self.alike(without)?;
+            let mut without = self.alike(self.without(&self.best, name)?)?;
             let now = self.judged(&self.best.blocks);
+            let told = effects.len() < 2 || self.joint_told(name)?;
             let needless = |without: &Fitted| {
                 let there = self.judged(&without.blocks);
                 let evidence = self.evidence(without, &self.best);
-                as_good(&there, &now, effects.len() - 1, evidence)
-                    && self.board.strayed(without).is_empty()
+                let as_good = as_good(&there, &now, effects.len() - 1, evidence);
+                (as_good || !told && near(&there, &now)) && self.board.strayed(without).is_empty()
             };
             // What comes near at once may come all the way.
             if !needless(&without) && self.judged(&without.blocks).level() < CLOSE_TO * now.level()
@@ -253,8 +252,12 @@ impl<'a> Walk<'a> {
 /// Whether a model is as good `without` an effect as `with` it, beside so many others. What is taken for what it gains in
 /// many blocks is kept for it.
 fn as_good(without: &Judged, with: &Judged, others: usize, evidence: f64) -> bool {
-    let near = without.against(with) < SURE && without.level() < AS_GOOD * with.level();
-    near && !shows(without, with, others, evidence)
+    near(without, with) && !shows(without, with, others, evidence)
+}
+
+/// Whether a model is hardly further off than another.
+fn near(without: &Judged, with: &Judged) -> bool {
+    without.against(with) < SURE && without.level() < AS_GOOD * with.level()
 }
 
 /// `rig` without one of its effects.
@@ -270,7 +273,7 @@ mod tests {
     use crate::{
         decide::Judged,
         model::Candidate,
-        walk::made::{BIAS, context, data, found, rig, walk, with, with as made_with},
+        walk::made::{BIAS, context, data, found, rig, walk, with},
     };
     use identify::effects::{Context, Kind};
 
@@ -303,9 +306,8 @@ mod tests {
     fn an_effect_that_is_not_surely_more_than_nothing_is_dropped_near_the_floor() {
         let data = data();
         let mut walk = walk(&rig(2.0), &data, &[]);
-        let with = |kind: Kind, values: &[f64]| with(&walk.best.rig, kind, values);
-        let bias = with(Kind::CurrentBias, &[BIAS]);
-        let none = made_with(&bias, Kind::ViscousAsymmetry, &[1e-9]);
+        let bias = with(&walk.best.rig, Kind::CurrentBias, &[BIAS]);
+        let none = with(&bias, Kind::ViscousAsymmetry, &[1e-9]);
         let refit = walk.board.judged(&bias, None).unwrap();
         let both = walk.board.judged(&none, None).unwrap();
         let context = context(&walk);
