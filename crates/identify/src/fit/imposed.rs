@@ -94,15 +94,15 @@ impl<'a, D: Real> Sliding<'a, D> {
         if !model.effects.is_empty() {
             act = model.acts(&now, base, aged);
         }
-        // The contact as it is at a displacement: the level at which it slips may differ from place to place.
+        // The contact as it is there: the level at which it slips may differ from place to place, and by direction.
         let levels = act.level.is_some();
-        let raised = |q: f64| {
-            let at = At { q: D::from(q), ..now };
+        let raised = |q: f64, v: f64| {
+            let at = At { q: D::from(q), v: D::from(v), ..now };
             model.contact.raised(None, model.acts(&at, base, &mut base.clone()).level)
         };
         let mut last = u_0;
         for &(next, speed) in step.way {
-            let grown = levels.then(|| raised(0.5 * (last + next)));
+            let grown = levels.then(|| raised(0.5 * (last + next), speed));
             let contact = grown.as_ref().unwrap_or(&model.contact);
             slide(contact, z, next - last, (speed, act.rise));
             last = next;
@@ -118,7 +118,7 @@ impl<'a, D: Real> Sliding<'a, D> {
             act = Acts { force, more, rise, drag, thicker, ..act };
             act.risen(|| model.contact.level(), model.contact.bristles());
         }
-        let grown = levels.then(|| raised(u));
+        let grown = levels.then(|| raised(u, v));
         let contact = grown.as_ref().unwrap_or(&model.contact);
         let own = force(contact, z, (v, act.rise), *direction);
         let sign = own.re().partial_cmp(&0.0).map_or(0.0, |order| f64::from(order as i8));
@@ -348,6 +348,29 @@ pub(super) mod tests {
             }
             // Four pieces an interval, in each the level of its middle: (kh/8)²/6 of the wave's 0.6 N and less.
             assert!((seen[i + 1] - truth).abs() < 2e-3, "{} N of {truth} N", seen[i + 1]);
+        }
+    }
+
+    #[test]
+    fn friction_that_differs_by_direction_does_so_in_each_of_its_forms() {
+        // At the end of each way F_C = 2 N, to which 2000 N/m come within a millimetre, and 10 N·s/m of 0.1 and 0.05 m/s.
+        let element = "name = \"maxwell-slip\"\nk = [2000.0]\ndelta = [1e-3]\nsigma_2 = 10.0";
+        let dahl = "name = \"dahl\"\nf_c = 2.0\nsigma = 2e5\ngamma = 1.0\nsigma_2 = 10.0";
+        for (form, [forth, back]) in
+            [(1, [2.6 + 1.0, -1.4 - 0.5]), (2, [3.9, -1.75]), (3, [3.6, -1.9])]
+        {
+            let effect =
+                format!("[[effect]]\nname = \"coulomb_asymmetry\"\nratio = 0.3\nform = {form}");
+            let beside = "sigma_2 = 0.0\n[[effect]]\nname = \"viscous\"\nsigma_2 = 10.0";
+            for friction in [element, dahl, &dahl.replace("sigma_2 = 10.0", beside)] {
+                let (_, seen) = forth_and_back(&model(&format!("{friction}\n{effect}")));
+                for (f, truth) in [(seen[19], forth), (seen[40], back)] {
+                    assert!(
+                        (f - truth).abs() < 1e-9,
+                        "form {form}: {f} N of {truth} N, {friction}"
+                    );
+                }
+            }
         }
     }
 
