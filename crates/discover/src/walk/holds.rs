@@ -35,22 +35,36 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         return fewest(rig, data, options, first);
     };
     let as_in = |hold: Hold| Data { hold, ..data.clone() };
-    let with = |hold: Hold, others: &[Data]| -> Result<End, FitError> {
+    let mut again = false;
+    let walk = |hold: Hold, others: &[Hold]| {
+        if std::mem::replace(&mut again, true) {
+            options.tell(|| format!("once more, with hold = \"{}\" for the input", hold.name()));
+        }
+        let others: Vec<Data> = others.iter().map(|other| as_in(*other)).collect();
         let (rig, data) = (rig.clone().saying(Some(hold)), as_in(hold));
-        walked((&rig, board::loose(&rig)), &data, others, options)
+        walked((&rig, board::loose(&rig)), &data, &others, options)
     };
-    let again = |other: Hold| format!("once more, with hold = \"{}\" for the input", other.name());
-    let mut others = told.others.map(as_in).to_vec();
-    let first = with(told.hold, &others)?;
-    let mut left: Vec<Hold> = first.turned.then_some(told.hold).into_iter().collect();
-    let (mut hold, mut found, mut asked) = (told.hold, first.found, first.other);
+    let (hold, found) = simplest((told.hold, told.others.to_vec()), &rig.free, walk)?;
+    let found = fewest(&rig.clone().saying(Some(hold)), &as_in(hold), options, found)?;
+    Ok(Discovery { hold: Some(hold), ..found })
+}
+
+/// The simplest of the answers that `walked` finds for the way that is `told` and those that it asks for, of the others that it
+/// may ask for; with its way. What is `free` may be anywhere.
+fn simplest(
+    (told, mut others): (Hold, Vec<Hold>),
+    free: &[String],
+    mut walked: impl FnMut(Hold, &[Hold]) -> Result<End, FitError>,
+) -> Result<(Hold, Discovery), FitError> {
+    let first = walked(told, &others)?;
+    let mut left: Vec<Hold> = first.turned.then_some(told).into_iter().collect();
+    let (mut hold, mut found, mut asked) = (told, first.found, first.other);
     while let Some(other) = asked {
-        options.tell(|| again(other));
-        others.retain(|data| data.hold != other);
-        let next = with(other, &others)?;
+        others.retain(|own| *own != other);
+        let next = walked(other, &others)?;
         left.extend(next.turned.then_some(other));
         asked = next.other;
-        if simpler(&next.found, &found, &rig.free) {
+        if simpler(&next.found, &found, free) {
             (hold, found) = (other, next.found);
         }
     }
@@ -59,14 +73,12 @@ pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, 
         if !matches!(found.verdict, Verdict::Partial | Verdict::NotInLibrary) {
             break;
         }
-        options.tell(|| again(other));
-        let whole = with(other, &[])?.found;
-        if simpler(&whole, &found, &rig.free) {
+        let whole = walked(other, &[])?.found;
+        if simpler(&whole, &found, free) {
             (hold, found) = (other, whole);
         }
     }
-    let found = fewest(&rig.clone().saying(Some(hold)), &as_in(hold), options, found)?;
-    Ok(Discovery { hold: Some(hold), ..found })
+    Ok((hold, found))
 }
 
 /// A model refitted to the record with its input another way.
@@ -182,7 +194,7 @@ fn simpler(one: &Discovery, other: &Discovery, free: &[String]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Data, Discovery, Hold, Moved, Rig, simpler};
+    use super::{Data, Discovery, End, Hold, Moved, Rig, simpler, simplest};
     use crate::{
         verdict::{Value, Verdict},
         walk::made,
@@ -245,6 +257,30 @@ mod tests {
         assert!(
             walk.late(&late).is_none() && made::walk(&bias, &straight, &[]).late(&bias).is_none()
         );
+    }
+
+    #[test]
+    fn what_was_turned_from_is_gone_to_its_end_where_the_other_way_leaves_something() {
+        let mut asked = Vec::new();
+        let mut of = |verdict: Verdict| {
+            asked.clear();
+            let walked = |hold: Hold, others: &[Hold]| {
+                asked.push((hold, others.to_vec()));
+                let (found, turns) = match (hold, others.is_empty()) {
+                    (Hold::ZeroOrder, false) => (answer(0, 211.0), true),
+                    (Hold::ZeroOrder, true) => (answer(1, 1.0), false),
+                    _ => (Discovery { verdict, ..answer(1, 3.3) }, false),
+                };
+                Ok(End { found, other: turns.then_some(Hold::Linear), turned: turns })
+            };
+            let ways = (Hold::ZeroOrder, vec![Hold::Linear, Hold::Smooth]);
+            let (hold, found) = simplest(ways, &[], walked).unwrap();
+            (hold, found.chi_squared[2], asked.len())
+        };
+        assert_eq!(of(Verdict::Partial), (Hold::ZeroOrder, 1.0, 3));
+        assert_eq!(of(Verdict::Effect), (Hold::Linear, 3.3, 2));
+        let others = vec![Hold::Linear, Hold::Smooth];
+        assert_eq!(asked, [(Hold::ZeroOrder, others), (Hold::Linear, vec![Hold::Smooth])]);
     }
 
     #[test]
