@@ -180,6 +180,9 @@ mod tests {
         let (mass, level) = off(&known);
         assert!(heavier > 0.02 && mass.abs() < 0.01, "{mass} off, {heavier} as recorded");
         assert!((level - 1.0).abs() < 0.06, "{level} floors");
+        // Beside the band it is told by some 4600 numbers.
+        let told = known.averaged.expect("it is told") / 0.4;
+        assert!((told - 1.0).abs() < 4.0 / (2.0 * 4600.0_f64).sqrt(), "{told} of the noise");
         // White noise of which so much is in the band, a few hundred numbers.
         let band = known.band.as_ref().expect("tones have one");
         let inside = (0..clean.len()).filter(|i| band.inside[*i]);
