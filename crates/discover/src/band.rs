@@ -6,10 +6,6 @@
 
 use identify::fit::data::Band;
 
-/// The noise that is told from differences of neighbours is as far off as this at most [of its square]; what the widest band
-/// leaves tells it closer.
-const TOLD: f64 = 0.25;
-
 /// A band is told with filters of so many samples to either side, the shortest first: each passes 1/√2 times as wide a band as
 /// the one before.
 const LENGTHS: [usize; 11] = [32, 45, 64, 90, 128, 181, 256, 362, 512, 724, 1024];
@@ -80,19 +76,6 @@ impl Passed {
         let left = squares / n / (noise * noise * share);
         [left, 1.0 + KNOWN + BETWEEN * (2.0 / (n * share)).sqrt()]
     }
-}
-
-/// The `noise` as it is beside the widest band that a filter passes, where that is about as much.
-pub(crate) fn beside_any(u: &[f64], noise: f64) -> f64 {
-    let half = LENGTHS[0];
-    if 4 * half >= u.len() || noise <= 0.0 {
-        return noise;
-    }
-    let widest = Passed::of(Filter::of(half), u, noise);
-    let all =
-        Passed { filter: Filter { weights: vec![1.0] }, values: u.to_vec(), inside: Vec::new() };
-    let [square, _] = all.left((&widest.filter, &widest.values), &widest.inside, noise);
-    if (square - 1.0).abs() < TOLD { noise * square.sqrt() } else { noise }
 }
 
 /// What the filter of the narrowest band that is surely whole makes of `u`; none if no band is narrow.
@@ -209,7 +192,7 @@ fn bessel(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Band, Filter, banded, beside_any, edge};
+    use super::{Band, Filter, banded, edge};
     use crate::input::{
         smoothed,
         tests::{NOISE, noisy, off},
@@ -217,7 +200,7 @@ mod tests {
 
     /// By its band, if it has one.
     fn by_band(u: &[f64]) -> (Vec<f64>, Option<Band>) {
-        banded(u, beside_any(u, NOISE), smoothed(u, NOISE))
+        banded(u, NOISE, smoothed(u, NOISE))
     }
 
     #[test]
@@ -229,8 +212,7 @@ mod tests {
             .collect();
         let (found, band) = by_band(&noisy(&clean));
         let band = band.unwrap();
-        // The narrowest filter that passes 0.094 is 0.116 wide; one more is spared.
-        assert!((0.13..0.2).contains(&band.edge), "{}", band.edge);
+        assert!((0.094..0.2).contains(&band.edge), "{}", band.edge);
         // White noise of which so much is in the band; by the samples around each, more.
         let left = off(&found, &clean) / NOISE;
         let share = (band.edge / std::f64::consts::PI).sqrt();
@@ -292,8 +274,5 @@ mod tests {
         assert!(by_band(&noisy(&square)).1.is_none());
         let wave: Vec<f64> = (0..4000).map(|i| (0.3 * f64::from(i)).sin()).collect();
         assert!(banded(&wave, 0.0, wave.clone()).1.is_none(), "nothing is hidden by no noise");
-        // Three tenths of all would do, which is told as well by the samples around each.
-        let wide: Vec<f64> = (0..4000).map(|i| (0.5 * f64::from(i)).sin()).collect();
-        assert!(by_band(&noisy(&wide)).1.is_none());
     }
 }
