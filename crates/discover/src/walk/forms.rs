@@ -181,12 +181,13 @@ fn twice(rig: &Rig, name: &str) -> Option<Rig> {
 }
 
 /// `rig` with these values of what is not asked for as a rule, free.
-pub(super) fn spared(rig: &Rig, values: &[(&str, f64)]) -> Rig {
+pub(super) fn spared(rig: &Rig, values: &[(impl AsRef<str>, f64)]) -> Rig {
     let mut with = rig.clone();
     for (name, value) in values {
+        let name = name.as_ref();
         binding::set(&mut with, name, *value);
         if !with.free.iter().any(|free| free == name) {
-            with.free.push((*name).to_owned());
+            with.free.push(name.to_owned());
         }
     }
     with

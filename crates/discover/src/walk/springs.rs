@@ -1,6 +1,6 @@
 //! More springs that slip, where one was found and does not do.
 
-use super::{ABOVE, FIRST, Walk, polish::lacking, settled};
+use super::{ABOVE, FIRST, Walk, forms::spared, polish::lacking, settled};
 use crate::{
     board::Fitted,
     gram::{self, Gram},
@@ -39,7 +39,7 @@ impl Walk<'_> {
         self.more_springs(seed)?;
         let level = |walk: &Self| walk.judged(&walk.best.blocks).level();
         let now = level(self);
-        if now < ABOVE || !self.best.rig.effects.iter().any(|effect| effect.name == NAME) {
+        if !self.springs_miss() {
             return Ok(());
         }
         let given = self.board.judged(&lacking(&self.beside_given()?.rig, NAME), None)?;
@@ -68,6 +68,12 @@ impl Walk<'_> {
         Ok(stiff.zip(places).map(<[f64; 2]>::from).filter(|[k, _]| *k > 0.0).collect())
     }
 
+    /// Whether springs that slip were found and leave something.
+    fn springs_miss(&self) -> bool {
+        let found = self.best.rig.effects.iter().any(|effect| effect.name == NAME);
+        found && self.judged(&self.best.blocks).level() >= ABOVE
+    }
+
     /// Gives springs that slip one more, and then another, for as long as the model comes much nearer with it.
     fn more_springs(&mut self, seed: u64) -> Result<(), FitError> {
         for number in MORE {
@@ -77,7 +83,7 @@ impl Walk<'_> {
             if rig.free.contains(&format!("{NAME}.share_{number}")) {
                 continue;
             }
-            if now < ABOVE || !rig.effects.iter().any(|effect| effect.name == NAME) {
+            if !self.springs_miss() {
                 break;
             }
             let lower = now * if now > FAR { LITTLE_LOWER } else { LOWER };
@@ -156,28 +162,23 @@ fn as_one(rig: &Rig, mut springs: Vec<Spring>) -> Option<Rig> {
     gram::with(&mut with, Kind::MaxwellSlip, &[delta], 0);
     binding::set(&mut with, &format!("{NAME}.k"), stiffness);
     with.free.push(format!("{NAME}.delta"));
+    let mut spares: Vec<(String, f64)> = Vec::new();
     for ([k, delta], number) in springs[1..].iter().zip(MORE) {
-        for (key, value) in [("share", k / stiffness), ("delta", *delta)] {
-            let name = format!("{NAME}.{key}_{number}");
-            binding::set(&mut with, &name, value);
-            with.free.push(name);
-        }
+        spares.extend(spring(number, [k / stiffness, *delta]));
     }
-    Some(with)
+    Some(spared(&with, &spares))
 }
 
 /// `rig` with a spring more, which slips `later` than the first.
 fn with(rig: &Rig, number: usize, later: f64) -> Rig {
-    let mut with = rig.clone();
     let delta = rig.value(&format!("{NAME}.delta")).unwrap_or(1.0);
-    for (key, value) in [("share", HARD / later), ("delta", delta * later)] {
-        let name = format!("{NAME}.{key}_{number}");
-        binding::set(&mut with, &name, value);
-        if !with.free.contains(&name) {
-            with.free.push(name);
-        }
-    }
-    with
+    spared(rig, &spring(number, [HARD / later, delta * later]))
+}
+
+/// The values of a further spring: its share of the first one's stiffness and its deadband [1, m].
+fn spring(number: usize, values: [f64; 2]) -> [(String, f64); 2] {
+    let [share, delta] = ["share", "delta"].map(|key| format!("{NAME}.{key}_{number}"));
+    [(share, values[0]), (delta, values[1])]
 }
 
 #[cfg(test)]

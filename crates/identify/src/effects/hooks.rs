@@ -185,15 +185,15 @@ impl<D: Real> Acts<D> {
         share
     }
 
-    /// What viscous friction there is beside the model's `own` at the velocity `v` [m/s], and by how much all of it is more
-    /// than it would be [N].
-    pub(crate) fn viscous(&self, own: impl Fn() -> D, v: D) -> Option<D> {
+    /// What viscous friction there is at the velocity `v` [m/s] beside the model's of `sigma_2` [N·s/m], and by how much all of
+    /// it is more than it would be [N].
+    pub(crate) fn viscous(&self, sigma_2: D, v: D) -> Option<D> {
         let [mut share, skew] = self.thicker;
         if let Some(skew) = skew {
             add(&mut share, if v.re() < 0.0 { -skew } else { skew });
         }
         let Some(share) = share else { return self.drag };
-        let own = own();
+        let own = sigma_2 * v;
         Some(match self.drag {
             Some(drag) => (own + drag) * share + drag,
             None => own * share,

@@ -129,7 +129,7 @@ impl<'a, D: Real> Sliding<'a, D> {
         if let Some(force) = act.force {
             all += force;
         }
-        if let Some(more) = act.viscous(|| model.sigma_2 * v, D::from(v)) {
+        if let Some(more) = act.viscous(model.sigma_2, D::from(v)) {
             all += more;
         }
         all + model.sigma_2 * v + model.offset

@@ -254,6 +254,7 @@ mod tests {
         Hold, Rig,
         fit::{
             Data, Seen,
+            data::Band,
             problem::{Problem, Weights},
             window::{START, Window},
         },
@@ -295,6 +296,40 @@ mod tests {
     const QUICK: &str = "title = \"a mass\"\n[plant]\nkind = \"mass-spring\"\nmass = 1.0\nstiffness = 20.0\n\
         [friction]\nname = \"none\"\nsigma_2 = 500.0\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n\
         velocity = \"v\"\n";
+
+    #[test]
+    fn noise_hangs_together_where_all_of_a_window_is_in_the_band() {
+        let rig = Rig::parse(QUICK).unwrap();
+        let time: Vec<f64> = (0..100).map(|i| 0.005 * f64::from(i)).collect();
+        let wave = || time.iter().map(|t| (20.0 * t).sin()).collect::<Vec<f64>>();
+        let seen = |name: &str| Seen::new(name, wave(), 0.0);
+        let driven = Data::driven(time.clone(), wave(), Hold::Linear, seen("position"));
+        let driven = Data { velocity: Some(seen("velocity")), ..driven };
+        let white = |band: Option<Band>| {
+            let data = Data { band, ..driven.clone() };
+            let weights = Weights {
+                displacement: 1e-5,
+                velocity: 4e-4,
+                input: 1.0,
+                force: 1.0,
+                loads: [1.0; 2],
+            };
+            let problem = Problem { weights, ..Problem::unfree(&rig, &data).unwrap() };
+            let window = Window::new(&data, 20, 80);
+            let piece = problem.piece(&[], &window, [0.0; START]);
+            let whitening = problem.whitening(&[], (&window, &piece), 0.5).unwrap();
+            let mut rows = vec![1.0; 120];
+            whitening.apply(&mut rows);
+            rows
+        };
+        let outside = |i: usize| {
+            let mut inside = vec![true; 100];
+            inside[i] = false;
+            white(Some(Band { edge: 0.2, inside }))
+        };
+        assert_eq!(outside(50), white(None));
+        assert_ne!(outside(90), white(None));
+    }
 
     #[test]
     fn what_the_noise_of_an_input_leaves_is_white_and_as_large_as_is_said() {

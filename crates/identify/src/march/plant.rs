@@ -136,7 +136,7 @@ impl<D: Real> Model<D> {
         if let Some(more) = all.force {
             force -= more;
         }
-        if let Some(more) = all.viscous(|| self.sigma_2 * v, v) {
+        if let Some(more) = all.viscous(self.sigma_2, v) {
             force -= more;
         }
         if way != 0.0 {
@@ -238,7 +238,7 @@ impl<D: Real> Model<D> {
         }
         all.risen(|| self.contact.level(), self.contact.bristles());
         let mut left = all.force.map_or(force, |more| force - more);
-        if let Some(more) = all.viscous(|| self.sigma_2 * v, v) {
+        if let Some(more) = all.viscous(self.sigma_2, v) {
             left -= more;
         }
         let way = if left.re() == 0.0 { 0.0 } else { left.re().signum() };
