@@ -212,7 +212,8 @@ mod tests {
             .collect();
         let (found, band) = by_band(&noisy(&clean));
         let band = band.unwrap();
-        assert!((0.094..0.2).contains(&band.edge), "{}", band.edge);
+        // The narrowest filter that passes 0.094 is 0.116 wide; one more is spared.
+        assert!((0.13..0.2).contains(&band.edge), "{}", band.edge);
         // White noise of which so much is in the band; by the samples around each, more.
         let left = off(&found, &clean) / NOISE;
         let share = (band.edge / std::f64::consts::PI).sqrt();
@@ -274,5 +275,8 @@ mod tests {
         assert!(by_band(&noisy(&square)).1.is_none());
         let wave: Vec<f64> = (0..4000).map(|i| (0.3 * f64::from(i)).sin()).collect();
         assert!(banded(&wave, 0.0, wave.clone()).1.is_none(), "nothing is hidden by no noise");
+        // Three tenths of all would do, which is told as well by the samples around each.
+        let wide: Vec<f64> = (0..4000).map(|i| (0.5 * f64::from(i)).sin()).collect();
+        assert!(by_band(&noisy(&wide)).1.is_none());
     }
 }

@@ -89,7 +89,11 @@ fn moves(run: &[f64], noise: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{Data, moves, rested, still};
-    use crate::{board::Board, walk::made};
+    use crate::{
+        board::Board,
+        input::tests::{NOISE, noisy, off},
+        walk::made,
+    };
     use identify::{
         Hold, Rig,
         fit::{Seen, search::Patience},
@@ -136,6 +140,22 @@ mod tests {
         // What is known of its noise is what it was.
         assert_eq!(still.noise_of_input(), shown);
         assert!((shown - 0.01).abs() < 1e-3, "{shown} N");
+    }
+
+    #[test]
+    fn an_input_that_has_a_band_is_as_that_has_it() {
+        let clean: Vec<f64> = (0..12_000)
+            .map(|i| (0.011 * f64::from(i)).sin() + 0.4 * (0.094 * f64::from(i)).sin())
+            .collect();
+        let input = noisy(&clean);
+        let time: Vec<f64> = (0..12_000).map(|i| 0.005 * f64::from(i)).collect();
+        let seen = Seen::new("position", clean.clone(), 0.0);
+        let known = still(&Data::driven(time, input, Hold::Smooth, seen));
+        let band = known.band.expect("tones have one");
+        // White noise of which so much is in the band; by the samples around each it would be twice as much.
+        let left = off(&known.input, &clean) / NOISE;
+        let share = (band.edge / std::f64::consts::PI).sqrt();
+        assert!((left / share - 1.0).abs() < 0.2, "{left} of the noise for {share}");
     }
 
     #[test]
