@@ -215,6 +215,11 @@ const WRONG: &[(&str, &str, &str)] = &[
     ),
     (
         "[fit]",
+        "[[effect]]\nname = \"coulomb_asymmetry\"\nratio = 0.1\nform = 7\n[fit]",
+        "line 27: form = 7: expected one of 1, 2, 3",
+    ),
+    (
+        "[fit]",
         "[[effect]]\nname = \"tach_gain\"\nerror = 1.5\n[fit]",
         "line 26: error = 1.5: expected a finite number, from -9e-1 to 9e-1",
     ),

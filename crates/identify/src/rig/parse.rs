@@ -384,6 +384,11 @@ fn effects(file: &Table, rig: &Rig) -> Result<Vec<Effect>, RigError> {
             if !(low..=high).contains(&value) {
                 return Err(item.invalid(&expected));
             }
+            let forms = if key.name == "form" { kind.forms() } else { &[] };
+            if !forms.is_empty() && !forms.contains(&value) {
+                let all: Vec<String> = forms.iter().map(f64::to_string).collect();
+                return Err(item.invalid(&format!("one of {}", all.join(", "))));
+            }
             values.insert(key.name.to_owned(), value);
         }
         effects.push(Effect { name: text.to_owned(), values });
