@@ -187,9 +187,13 @@ fn every_effect_says_what_it_is_and_in_what_its_values_are_measured() {
     assert_eq!(KINDS.len(), 5, "a new kind of plant needs a family here");
 }
 
-/// The values of an effect, each in the middle of what is allowed, by size.
+/// The values of an effect, each in the middle of what is allowed, by size; of its forms the last.
 fn middle(kind: Kind) -> BTreeMap<String, f64> {
-    kind.about().keys.iter().map(|key| (key.name.to_owned(), 0.25)).collect()
+    let value = |key: &Key| match kind.forms().last() {
+        Some(form) if key.name == "form" => *form,
+        _ => 0.25,
+    };
+    kind.about().keys.iter().map(|key| (key.name.to_owned(), value(key))).collect()
 }
 
 #[test]
