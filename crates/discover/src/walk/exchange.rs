@@ -1,13 +1,15 @@
 //! Whether an effect that was found first is still the one beside those found after it.
 
 use super::{
-    ALIKE, Walk,
+    ALIKE, FIRST, Walk,
     named::{LEAST, SURE, UNSURE, numbers},
     polish::TOLD,
 };
 use crate::{
+    board::Fitted,
     decide::Judged,
     model,
+    screen::Scored,
     verdict::{Found, Options},
 };
 use identify::{
@@ -37,9 +39,13 @@ impl Walk<'_> {
             let name = effects[place].name;
             let (before, ranked) = (self.best.clone(), self.ranking.len());
             let without = self.without(&before, name)?;
-            let stays = || self.judged(&without.blocks).level() > BESIDE;
-            if plausible && kind_of(name).is_some_and(|kind| !kind.tried().is_empty()) && stays() {
-                continue;
+            let joint = kind_of(name).is_some_and(|kind| !kind.tried().is_empty());
+            if plausible && joint {
+                let rigid = self.rigid(&before, &without, name)?;
+                let left = self.judged(&rigid.unwrap_or(without.clone()).blocks).level();
+                if left > BESIDE {
+                    continue;
+                }
             }
             self.reached = self.judged(&before.blocks).level().max(1.0);
             self.best = without;
@@ -65,6 +71,24 @@ impl Walk<'_> {
             }
         }
         Ok(())
+    }
+
+    /// A model `without` the joint of this name that it had `before`, with the dry friction of the load, if it had any, as the
+    /// mass's own where that has none: a load that rubs takes its place, however little it gives way.
+    fn rigid(
+        &self,
+        before: &Fitted,
+        without: &Fitted,
+        name: &str,
+    ) -> Result<Option<Fitted>, FitError> {
+        let dry = Kind::Coulomb;
+        let rubs = before.rig.value(&format!("{name}.rubs")).filter(|rubs| *rubs > 0.0);
+        let own = without.rig.effects.iter().any(|effect| effect.name == dry.about().name);
+        let Some(rubs) = rubs.filter(|_| dry.applies(&without.rig) && !own) else {
+            return Ok(None);
+        };
+        let rig = model::with(without, &Scored::unscored(dry, vec![rubs]));
+        self.board.fit_near(&rig, &without.pieces, &FIRST).map(Some)
     }
 
     /// Whether all effects but the one in this `place` are still plausible in the last model: none of them has become what
@@ -181,6 +205,20 @@ mod tests {
         assert_eq!(first(Kind::QuadraticDrag, &[0.1], BIAS), "current_bias");
         assert_eq!(first(Kind::Compliance, &soft, BIAS), "compliance");
         assert_eq!(first(Kind::Compliance, &soft, 0.012 * BIAS), "current_bias");
+    }
+
+    #[test]
+    fn a_load_that_rubs_and_hardly_gives_way_is_dry_friction_of_the_mass() {
+        let data = taken(|_, v| 0.3 * v.signum());
+        let mut walk = walk(&rig(2.0), &data, &[]);
+        let joint = with(&rig(2.0), Kind::Compliance, &[1e-5, 1.0, 0.5, 0.3]);
+        walk.best = walk.board.judged(&with(&joint, Kind::CubicSpring, &[1e-3]), None).unwrap();
+        let without = walk.without(&walk.best, "compliance").unwrap();
+        assert!(walk.judged(&without.blocks).level() > super::BESIDE, "much is left");
+        let context = context(&walk);
+        let mut effects = vec![found("compliance"), found("cubic_spring")];
+        walk.exchange_each(&mut effects, &context, &crate::Options::default()).unwrap();
+        assert_eq!(effects[0].name, "coulomb");
     }
 
     #[test]
