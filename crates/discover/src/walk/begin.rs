@@ -39,6 +39,9 @@ pub(super) fn begin<'a>(
     let mut own = given.clone();
     let mut rig = board::loosened(&own, &loose);
     let (mut board, mut refit) = nominal(&rig, data, &loose, seed)?;
+    if !moves(&board, &refit) {
+        return Err(FitError::NoMotion);
+    }
     if let Some(scale) = board.untold(&own, &refit)? {
         own.free.retain(|name| *name != scale.0);
         loose.push(scale);
@@ -61,6 +64,11 @@ pub(super) fn begin<'a>(
         origin = board.again(&origin)?;
     }
     Ok(Begin { rig, loose, board, refit, origin, strayed })
+}
+
+/// Whether a model can be simulated on any window at all.
+fn moves(board: &Board<'_>, fitted: &Fitted) -> bool {
+    board.imposed() || fitted.pieces.iter().any(|piece| !piece.motion.q.is_empty())
 }
 
 /// The blocks of `data` with their floor, and the nominal model refitted on them.
@@ -115,4 +123,27 @@ fn from_given(board: &mut Board<'_>, given: &Fitted, seed: u64) -> Result<Fitted
 /// friction that is to come to rest is best as heavy as can be.
 pub(super) fn astray(board: &Board<'_>, refit: &Fitted, given: &Fitted) -> bool {
     board.trained_level(refit) > GROSS && !model::reasonable(&refit.rig, &given.rig)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{begin, moves};
+    use crate::walk::made::{DRY, data, rig};
+    use identify::{Rig, fit::FitError};
+
+    #[test]
+    fn a_model_that_cannot_be_simulated_is_searched_no_further() {
+        let data = data();
+        let began = begin((&rig(2.0), Vec::new()), &data, 1).unwrap();
+        assert!(moves(&began.board, &began.refit));
+        let mut still = began.refit.clone();
+        still.pieces.iter_mut().for_each(|piece| piece.motion = Default::default());
+        assert!(!moves(&began.board, &still));
+        // Beyond its dry friction nothing holds a force of newtons back.
+        let text =
+            DRY.replace("mass = 2.0", "mass = 1e-59").replace("sigma_2 = 0.5", "sigma_2 = 0");
+        let massless = Rig::parse(&text.replace("stiffness = 3.0", "stiffness = 1e-59")).unwrap();
+        let refused = begin((&massless, Vec::new()), &data, 1).map(|_| ());
+        assert!(matches!(refused, Err(FitError::NoMotion)), "{refused:?}");
+    }
 }

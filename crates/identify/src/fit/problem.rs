@@ -256,14 +256,14 @@ impl Problem<'_> {
         [self.first_weight(i), velocity]
     }
 
-    /// What a step may be wrong by, and how many a window may take.
+    /// What a step may be wrong by, and how many a window may take: what is lost in a short one is not sought for long.
     fn spans(&self, window: &Window, tolerance: f64) -> Tolerance {
         let q = self.data.displacement.as_ref().map_or(1.0, |d| d.span.max(d.noise));
-        let v = self.speed.max(1e-12);
+        let (v, n) = (self.speed.max(1e-12), window.len());
         // A step of order 3 gets shorter with the cube root of what it may be wrong by.
         let finer = (1e-5 / tolerance).cbrt().max(1.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within usize")]
-        let steps = (finer * (8 * window.len() + 10_000) as f64) as usize;
+        let steps = (finer * (64 * n + 1000).min(8 * n + 10_000) as f64) as usize;
         Tolerance { q: tolerance * q, v: tolerance * v, z: tolerance, steps }
     }
 
