@@ -129,7 +129,7 @@ pub(super) fn astray(board: &Board<'_>, refit: &Fitted, given: &Fitted) -> bool 
 mod tests {
     use super::{begin, moves};
     use crate::walk::made::{DRY, data, rig};
-    use identify::{Rig, fit::FitError};
+    use identify::{Rig, fit::FitError, march::Motion};
 
     #[test]
     fn a_model_that_cannot_be_simulated_is_searched_no_further() {
@@ -137,7 +137,7 @@ mod tests {
         let began = begin((&rig(2.0), Vec::new()), &data, 1).unwrap();
         assert!(moves(&began.board, &began.refit));
         let mut still = began.refit.clone();
-        still.pieces.iter_mut().for_each(|piece| piece.motion = Default::default());
+        still.pieces.iter_mut().for_each(|piece| piece.motion = Motion::default());
         assert!(!moves(&began.board, &still));
         // Beyond its dry friction nothing holds a force of newtons back.
         let text =
