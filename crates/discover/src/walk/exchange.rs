@@ -40,12 +40,8 @@ impl Walk<'_> {
             let (before, ranked) = (self.best.clone(), self.ranking.len());
             let without = self.without(&before, name)?;
             let joint = kind_of(name).is_some_and(|kind| !kind.tried().is_empty());
-            if plausible && joint {
-                let rigid = self.rigid(&before, &without, name)?;
-                let left = self.judged(&rigid.unwrap_or(without.clone()).blocks).level();
-                if left > BESIDE {
-                    continue;
-                }
+            if plausible && joint && self.left_rigid(&before, &without, name)? > BESIDE {
+                continue;
             }
             self.reached = self.judged(&before.blocks).level().max(1.0);
             self.best = without;
@@ -73,22 +69,18 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// A model `without` the joint of this name that it had `before`, with the dry friction of the load, if it had any, as the
-    /// mass's own where that has none: a load that rubs takes its place, however little it gives way.
-    fn rigid(
-        &self,
-        before: &Fitted,
-        without: &Fitted,
-        name: &str,
-    ) -> Result<Option<Fitted>, FitError> {
+    /// What a model leaves `without` the joint of this name that it had `before` [1], with the dry friction of the load, if it
+    /// had any, as the mass's own where that has none: a load that rubs takes its place, however little it gives way.
+    fn left_rigid(&self, before: &Fitted, without: &Fitted, name: &str) -> Result<f64, FitError> {
         let dry = Kind::Coulomb;
-        let rubs = before.rig.value(&format!("{name}.rubs")).filter(|rubs| *rubs > 0.0);
         let own = without.rig.effects.iter().any(|effect| effect.name == dry.about().name);
+        let rubs = before.rig.value(&format!("{name}.rubs")).filter(|rubs| *rubs > 0.0);
         let Some(rubs) = rubs.filter(|_| dry.applies(&without.rig) && !own) else {
-            return Ok(None);
+            return Ok(self.judged(&without.blocks).level());
         };
         let rig = model::with(without, &Scored::unscored(dry, vec![rubs]));
-        self.board.fit_near(&rig, &without.pieces, &FIRST).map(Some)
+        let rigid = self.board.fit_near(&rig, &without.pieces, &FIRST)?;
+        Ok(self.judged(&rigid.blocks).level())
     }
 
     /// Whether all effects but the one in this `place` are still plausible in the last model: none of them has become what
