@@ -7,11 +7,16 @@ use crate::board::{Board, Fitted, SOFT};
 use identify::{
     Effect, Rig,
     effects::{Context, Key, Kind, LAWS, Shape},
-    fit::{FitError, binding::Scale, models, problem::Problem},
+    fit::{
+        FitError,
+        binding::Scale,
+        models,
+        problem::{Along, Problem},
+    },
 };
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-pub(crate) use rows::{jacobians, residuals};
+pub(crate) use rows::{beside, jacobians, residuals};
 pub(crate) use spreads::spreads;
 
 /// An effect at one probe, and its columns.
@@ -95,12 +100,28 @@ pub(crate) fn with(rig: &mut Rig, kind: Kind, probe: &[f64], number: usize) -> V
     values
 }
 
-/// How many columns one pass over the record can carry.
-const PASS: usize = 12;
+/// How many columns one pass over the record carries at most.
+const PASS: usize = 15;
 
 /// How many amounts an effect has.
 fn amounts(kind: Kind) -> usize {
     kind.about().keys.iter().filter(|key| key.shape == Shape::Amount).count()
+}
+
+/// Effects at their probes, so many together that one pass over the record carries all of their amounts.
+fn passes(all: &[(Kind, Vec<f64>)]) -> Vec<Vec<&(Kind, Vec<f64>)>> {
+    let mut passes: Vec<(usize, Vec<&(Kind, Vec<f64>)>)> = Vec::new();
+    for one in all {
+        let many = amounts(one.0);
+        match passes.iter_mut().find(|(taken, _)| taken + many <= PASS) {
+            Some((taken, pass)) => {
+                *taken += many;
+                pass.push(one);
+            }
+            None => passes.push((many, vec![one])),
+        }
+    }
+    passes.into_iter().map(|(_, pass)| pass).collect()
 }
 
 impl Gram {
@@ -112,7 +133,7 @@ impl Gram {
         (context, begun): (&Context, bool),
     ) -> Result<Self, FitError> {
         let lacking = lacking(board, &fitted.rig, context);
-        let Own { names, prior, columns, residuals } = Own::of(board, fitted)?;
+        let Own { names, prior, along, columns, residuals } = Own::of(board, fitted)?;
         let nominal = names.len();
         let mut columns: Vec<Vec<DMatrix<f64>>> = columns.into_iter().map(|j| vec![j]).collect();
         let (smooth, joints): (Vec<_>, Vec<_>) = lacking
@@ -123,31 +144,24 @@ impl Gram {
             probes.into_iter().map(move |probe| (kind, probe))
         };
         let all: Vec<(Kind, Vec<f64>)> = smooth.into_iter().flat_map(each).collect();
-        let (mut probes, mut place, mut next): (Vec<Probe>, _, _) = (Vec::new(), nominal, 0);
-        while next < all.len() {
+        let (mut probes, mut place): (Vec<Probe>, _) = (Vec::new(), nominal);
+        for pass in passes(&all) {
             let mut rig = Rig { free: Vec::new(), ..fitted.rig.clone() };
             let first = probes.len();
-            let mut taken = 0;
-            while next < all.len() && taken + amounts(all[next].0) <= PASS {
-                let (kind, probe) = &all[next];
+            for (kind, probe) in pass {
                 let n = amounts(*kind);
-                let values = with(&mut rig, *kind, probe, next + 1);
-                let columns = (place + taken..place + taken + n).collect();
+                let values = with(&mut rig, *kind, probe, probes.len() + 1);
+                let columns = (place..place + n).collect();
                 probes.push(Probe { kind: *kind, values, columns, sizes: vec![1.0; n] });
-                (next, taken) = (next + 1, taken + n);
+                place += n;
             }
             let problem = board.problem(&rig, |_| true)?;
             let mut sizes = problem.free.iter().map(|f| f.slope(0.0));
             for probe in &mut probes[first..] {
                 probe.sizes.fill_with(|| sizes.next().unwrap_or(1.0));
             }
-            for (k, j) in jacobians(board, &problem, &vec![0.0; taken], &fitted.pieces)
-                .into_iter()
-                .enumerate()
-            {
-                columns[k].push(j);
-            }
-            place += taken;
+            let more = beside(board, &problem, &vec![0.0; problem.free.len()], &along);
+            columns.iter_mut().zip(more).for_each(|(own, more)| own.push(more));
         }
         for (kind, own) in joints.into_iter().filter(|_| begun) {
             for (probe, tried) in own.iter().zip(kind.tried()).take(1) {
@@ -169,7 +183,7 @@ impl Gram {
 
     /// Of a fitted model alone.
     pub(crate) fn alone(board: &Board<'_>, fitted: &Fitted) -> Result<Self, FitError> {
-        Own::of(board, fitted)?.with(board, fitted, &fitted.held())
+        Own::of(board, fitted)?.with(board, &fitted.held())
     }
 
     /// Of a fitted model and all that each of the `rigs` has free beside it, as one probe.
@@ -179,7 +193,7 @@ impl Gram {
         rigs: &[Rig],
     ) -> Result<Vec<Self>, FitError> {
         let own = Own::of(board, fitted)?;
-        rigs.iter().map(|rig| own.with(board, fitted, rig)).collect()
+        rigs.iter().map(|rig| own.with(board, rig)).collect()
     }
 
     /// The sum over the blocks that `take` says, the nominal columns held near their values as much as the misfit asks for. Where the model is near, every
@@ -218,29 +232,32 @@ impl Gram {
 }
 
 /// The derivatives by what is free in a fitted model, and what it leaves, window by window.
-struct Own {
+struct Own<'f> {
     names: Vec<String>,
     prior: Vec<f64>,
+    along: Vec<Along<'f>>,
     columns: Vec<DMatrix<f64>>,
     residuals: Vec<DVector<f64>>,
 }
 
-impl Own {
-    fn of(board: &Board<'_>, fitted: &Fitted) -> Result<Self, FitError> {
+impl<'f> Own<'f> {
+    fn of(board: &Board<'_>, fitted: &'f Fitted) -> Result<Self, FitError> {
         let problem = board.problem(&fitted.rig, |_| true)?;
+        let along = problem.all_along(&fitted.x, &fitted.pieces);
         Ok(Self {
             names: problem.free.iter().map(|f| f.name.clone()).collect(),
             prior: prior(&problem),
-            columns: jacobians(board, &problem, &fitted.x, &fitted.pieces),
+            columns: beside(board, &problem, &fitted.x, &along),
+            along,
             residuals: residuals(board, &problem, &fitted.x, &fitted.pieces),
         })
     }
 
     /// With all that `rig` has free, as one probe.
-    fn with(&self, board: &Board<'_>, fitted: &Fitted, rig: &Rig) -> Result<Gram, FitError> {
+    fn with(&self, board: &Board<'_>, rig: &Rig) -> Result<Gram, FitError> {
         let problem = board.problem(rig, |_| true)?;
         let sizes: Vec<f64> = problem.free.iter().map(|f| f.slope(0.0)).collect();
-        let more = jacobians(board, &problem, &vec![0.0; sizes.len()], &fitted.pieces);
+        let more = beside(board, &problem, &vec![0.0; sizes.len()], &self.along);
         let windows = self.columns.par_iter().zip(more).zip(&self.residuals);
         let windows = windows.map(|((own, more), r)| gram(&[own, &more], r)).collect();
         Ok(Gram {
@@ -315,4 +332,49 @@ fn gram(columns: &[&DMatrix<f64>], residual: &DVector<f64>) -> DMatrix<f64> {
     joined.set_column(all, residual);
     // Faster than its `tr_mul`, which goes column by column.
     joined.transpose() * joined
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Gram, PASS, has_amount, lacking, passes, with};
+    use crate::{
+        board::{Board, Fitted},
+        model,
+        walk::made,
+    };
+    use identify::effects::Kind;
+
+    #[test]
+    fn what_is_beside_an_effect_changes_none_of_its_derivatives() {
+        let data = made::data();
+        let board = &Board::of(&made::rig(2.0), &data, 1, Vec::new()).unwrap();
+        let fitted = &board.judged(&made::rig(2.0), None).unwrap();
+        let context = &model::context(board, fitted);
+        let gram = Gram::of(board, fitted, (context, false)).unwrap();
+        let lacking = lacking(board, &fitted.rig, context).into_iter();
+        let smooth = lacking.filter(|(kind, _)| has_amount(*kind) && kind.tried().is_empty());
+        let each = |(kind, own): (Kind, Vec<_>)| own.into_iter().map(move |probe| (kind, probe));
+        let all: Vec<(Kind, Vec<f64>)> = smooth.flat_map(each).collect();
+        assert_eq!(gram.probes.len(), all.len());
+        let columns: Vec<usize> = gram.probes.iter().flat_map(|p| p.columns.clone()).collect();
+        assert!(columns.iter().copied().eq(gram.nominal..gram.nominal + columns.len()));
+        let passes = passes(&all);
+        assert!(passes.len() > 1 && passes.iter().all(|pass| pass.len() <= PASS));
+        let squares = gram.sum(|_| true);
+        for (own, (kind, probe)) in gram.probes.iter().zip(passes.into_iter().flatten()) {
+            let mut rig = Fitted::holding(&fitted.rig);
+            let values = with(&mut rig, *kind, probe, 0);
+            assert_eq!((own.kind, &own.values), (*kind, &values));
+            let problem = board.problem(&rig, |_| true).unwrap();
+            let alone = problem.all_slopes(&vec![0.0; own.columns.len()], &fitted.pieces);
+            for (place, column) in own.columns.iter().enumerate() {
+                let own = problem.windows.iter().zip(&alone).map(|(window, slopes)| {
+                    slopes.jacobian.rows(0, window.len()).column(place).norm_squared()
+                });
+                let sum: f64 = own.sum();
+                let beside = squares[(*column, *column)];
+                assert!((beside - sum).abs() <= 1e-9 * sum, "{kind:?}: {beside}, alone {sum}");
+            }
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::board::Board;
 use identify::fit::{
-    problem::{Piece, Problem},
+    problem::{Along, Piece, Problem},
     window::Window,
 };
 use nalgebra::{DMatrix, DVector};
@@ -14,7 +14,17 @@ pub(crate) fn jacobians(
     x: &[f64],
     pieces: &[Piece],
 ) -> Vec<DMatrix<f64>> {
-    let slopes = problem.all_slopes(x, pieces);
+    beside(board, problem, x, &problem.all_along(x, pieces))
+}
+
+/// The same along the motions of a problem that is the same but for effects that change nothing yet.
+pub(crate) fn beside(
+    board: &Board<'_>,
+    problem: &Problem<'_>,
+    x: &[f64],
+    along: &[Along<'_>],
+) -> Vec<DMatrix<f64>> {
+    let slopes = problem.all_beside(x, along);
     let loads = problem.cells(x).1;
     let channels = problem.channels();
     let windows = windows(board, problem);
@@ -22,9 +32,9 @@ pub(crate) fn jacobians(
         let window = &windows[k];
         let n = window.len();
         let own = if board.imposed() {
-            slopes[0].jacobian.rows(window.first, n).into_owned()
+            slopes[0].rows(window.first, n).into_owned()
         } else {
-            slopes[k].jacobian.rows(0, n * channels).into_owned()
+            slopes[k].rows(0, n * channels).into_owned()
         };
         if loads.nrows() == 0 {
             return own;

@@ -25,6 +25,7 @@ mod piece;
 pub mod problem;
 pub mod search;
 pub mod shaken;
+mod slopes;
 pub mod starts;
 mod way;
 mod weights;

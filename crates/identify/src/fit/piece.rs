@@ -58,6 +58,7 @@ pub struct Slopes {
 
 /// A window's derivatives by its start: Q of their factors, the inverse of R, and the columns' sizes, for these differ
 /// by the units of displacement and velocity, and it is their directions that count.
+#[derive(Debug)]
 pub(super) struct Starts {
     pub(super) q: DMatrix<f64>,
     r: DMatrix<f64>,

@@ -5,20 +5,18 @@ use super::{
     data::Data,
     displacement::Course,
     imposed::forces,
-    piece::Starts,
     weights::bend,
     window::{ONE_MASS, START, Window},
 };
 pub use super::{
     piece::{Lead, Piece, Slopes},
+    slopes::Along,
     weights::Weights,
 };
 use crate::{
     Rig,
-    march::{Drive, Dual, Feedback, Model, Motion, Real, Tape, Tolerance, march, replay},
+    march::{Drive, Dual, Feedback, Model, Motion, Real, Tolerance, march},
 };
-use nalgebra::{DMatrix, DMatrixViewMut};
-use rayon::prelude::*;
 use std::{borrow::Cow, sync::Arc};
 
 /// A record, a rig and what of it is free: the least-squares problem of the fit.
@@ -66,16 +64,12 @@ pub struct Problem<'a> {
 const TIMING: f64 = 0.1;
 const BENDS: f64 = 8.0;
 
-/// A motion of so many steps a sample is gone over once more with longer ones for its derivatives: to find these, no fewer
-/// than one a sample, takes longer than to carry derivatives along a few steps more.
-const MANY: usize = 2;
-
 /// The residual of a sample without a motion, in standard deviations: far worse than any motion's.
 const NO_MOTION: f64 = 1e4;
 
 impl Problem<'_> {
     /// The number of residuals of a window.
-    fn rows(&self, window: &Window) -> usize {
+    pub(super) fn rows(&self, window: &Window) -> usize {
         window.len() * self.channels() + self.starts()
     }
 
@@ -107,7 +101,7 @@ impl Problem<'_> {
     }
 
     /// The course of the imposed motion in a window.
-    fn course(&self, window: &Window) -> Cow<'_, Course> {
+    pub(super) fn course(&self, window: &Window) -> Cow<'_, Course> {
         if window.len() == self.data.time.len() {
             return Cow::Borrowed(&self.course);
         }
@@ -121,7 +115,7 @@ impl Problem<'_> {
     }
 
     /// The model with derivatives by the variables from `first` on in its first places.
-    fn model_with<const P: usize>(&self, x: &[f64], first: usize) -> Model<Dual<P>> {
+    pub(super) fn model_with<const P: usize>(&self, x: &[f64], first: usize) -> Model<Dual<P>> {
         self.model_of(&|i| {
             let value = self.free[i].value(x[i]);
             match i.checked_sub(first) {
@@ -234,7 +228,7 @@ impl Problem<'_> {
     /// changes or, in windows, by how it bends.
     ///
     /// A sample in a break-away is worth what its time is: without this a few of them would decide the fit.
-    fn velocity_weight(&self, values: &[f64], i: usize) -> f64 {
+    pub(super) fn velocity_weight(&self, values: &[f64], i: usize) -> f64 {
         let noise = self.weights.velocity;
         let (before, after) = (i.saturating_sub(1), (i + 1).min(values.len() - 1));
         let bends = || (bend(values, i) - BENDS * noise).max(0.0);
@@ -243,7 +237,7 @@ impl Problem<'_> {
     }
 
     /// The standard deviation of a sample of the displacement, or of the force.
-    fn first_weight(&self, i: usize) -> f64 {
+    pub(super) fn first_weight(&self, i: usize) -> f64 {
         let imposed = self.data.force.is_some();
         let own = if imposed { self.weights.force } else { self.weights.displacement };
         self.spread.get(i).map_or(own, |more| own.hypot(*more))
@@ -257,7 +251,7 @@ impl Problem<'_> {
     }
 
     /// What a step may be wrong by, and how many a window may take: what is lost in a short one is not sought for long.
-    fn spans(&self, window: &Window, tolerance: f64) -> Tolerance {
+    pub(super) fn spans(&self, window: &Window, tolerance: f64) -> Tolerance {
         let q = self.data.displacement.as_ref().map_or(1.0, |d| d.span.max(d.noise));
         let (v, n) = (self.speed.max(1e-12), window.len());
         // A step of order 3 gets shorter with the cube root of what it may be wrong by.
@@ -265,134 +259,5 @@ impl Problem<'_> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within usize")]
         let steps = (finer * (64 * n + 1000).min(8 * n + 10_000) as f64) as usize;
         Tolerance { q: tolerance * q, v: tolerance * v, z: tolerance, steps }
-    }
-
-    /// The derivatives of a window's residuals by the variables `x`, its start projected out, and how that follows.
-    pub fn slopes(&self, x: &[f64], window: &Window, piece: &Piece) -> Slopes {
-        let (free, starts) = (self.free.len(), self.starts());
-        let jacobian = self.jacobian(x, window, piece, 0);
-        let by_x = jacobian.columns(0, free).into_owned();
-        if starts == 0 {
-            let lead = Lead::staying(piece.start, free);
-            return Slopes { jacobian: by_x, lead };
-        }
-        let own = Starts::of(jacobian.columns(free, starts).into_owned());
-        let along = own.q.tr_mul(&by_x);
-        let start = own.better(piece);
-        let by = own.moved(&along).resize_vertically(START, 0.0);
-        let lead = Lead { was: piece.start, misfit: piece.misfit(), start, by };
-        Slopes { jacobian: by_x - own.q * along, lead }
-    }
-
-    /// The derivatives of a window's residuals by its start.
-    pub(super) fn by_start(&self, x: &[f64], window: &Window, piece: &Piece) -> Starts {
-        Starts::of(self.jacobian(x, window, piece, self.free.len()))
-    }
-
-    /// The derivatives of a window's residuals by the variables and then by its start, from column `first` on.
-    fn jacobian(&self, x: &[f64], window: &Window, piece: &Piece, first: usize) -> DMatrix<f64> {
-        let (free, starts) = (self.free.len(), self.starts());
-        let columns = free + starts;
-        let mut jacobian = DMatrix::zeros(self.rows(window), columns - first);
-        match columns - first {
-            0..=3 => self.columns::<4>(x, window, piece, (first, &mut jacobian)),
-            4..=7 => self.columns::<8>(x, window, piece, (first, &mut jacobian)),
-            8..=11 => self.columns::<12>(x, window, piece, (first, &mut jacobian)),
-            _ => self.columns::<16>(x, window, piece, (first, &mut jacobian)),
-        }
-        if let Some(whitening) = &window.whitening {
-            whitening.apply_all(&mut jacobian);
-        }
-        let (shares, channels) = (self.shares.get(window.first..window.end), self.channels());
-        for (i, share) in shares.unwrap_or_default().iter().enumerate() {
-            jacobian.rows_mut(i * channels, channels).scale_mut(*share);
-        }
-        let n = jacobian.nrows();
-        for (i, spread) in window.spread.iter().enumerate().take(starts) {
-            jacobian[(n - starts + i, free + i - first)] = spread.recip();
-        }
-        jacobian
-    }
-
-    /// The columns from `first` on, in passes of as many as fit.
-    fn columns<const P: usize>(
-        &self,
-        x: &[f64],
-        window: &Window,
-        piece: &Piece,
-        (first, jacobian): (usize, &mut DMatrix<f64>),
-    ) {
-        let mut done = 0;
-        while done < jacobian.ncols() {
-            let many = (jacobian.ncols() - done).min(P - 1);
-            let mut part = jacobian.columns_mut(done, many);
-            self.some_columns::<P>(x, window, piece, (first + done, &mut part));
-            done += many;
-        }
-    }
-
-    /// As many columns from `first` on as there is room for.
-    fn some_columns<const P: usize>(
-        &self,
-        x: &[f64],
-        window: &Window,
-        piece: &Piece,
-        (first, jacobian): (usize, &mut DMatrixViewMut<'_, f64>),
-    ) {
-        let model = self.model_with::<P>(x, first);
-        let range = window.first..window.end;
-        let many = jacobian.ncols();
-        let mut write = |row: usize, value: &Dual<P>, weight: f64| {
-            for place in 0..many {
-                jacobian[(row, place)] = value.eps[place] / weight;
-            }
-        };
-        if let Some(force) = &self.data.force {
-            forces(
-                &model,
-                (&self.data.time[range.clone()], &self.data.input[range], &self.course(window)),
-                force.values[window.first],
-                &mut |i, f| write(i, &f, self.first_weight(window.first + i)),
-            );
-            return;
-        }
-        let seed = |value: f64, column: usize| match column.checked_sub(first) {
-            Some(place) if place < P - 1 => Dual::variable(value, place),
-            _ => Dual::from(value),
-        };
-        let n = self.free.len();
-        let start = std::array::from_fn(|i| seed(piece.start[i], n + i));
-        let state = self.state(&model, window, start);
-        let channels = self.channels();
-        let longer;
-        let mut tape: &Tape = &piece.motion.tape;
-        if self.slopes > self.tolerance && tape.steps() > MANY * window.len() {
-            let model = self.model(x);
-            let state = self.state(&model, window, piece.start);
-            let spans = self.spans(window, self.slopes);
-            let drive = self.drive(window);
-            longer = march(&model, &drive, &self.data.time[range.clone()], &state, &spans);
-            tape = longer.as_ref().map_or(tape, |motion| &motion.tape);
-        }
-        if tape.samples() != window.len() {
-            return;
-        }
-        let drive = (&self.drive(window), &self.data.time[range]);
-        replay(&model, drive, tape, &state, &mut |i, q, v, u| {
-            let mut row = i * channels;
-            write(row, &q, self.first_weight(window.first + i));
-            if let Some(seen) = &self.data.velocity {
-                row += 1;
-                write(row, &v, self.velocity_weight(&seen.values, window.first + i));
-            }
-            if self.closed_loop {
-                write(row + 1, &u, self.weights.input);
-            }
-        });
-    }
-
-    /// The derivatives of all `pieces`.
-    pub fn all_slopes(&self, x: &[f64], pieces: &[Piece]) -> Vec<Slopes> {
-        self.windows.par_iter().zip(pieces).map(|(w, piece)| self.slopes(x, w, piece)).collect()
     }
 }
