@@ -19,10 +19,10 @@ pub(super) fn amounts(kind: Kind, shown: Option<f64>) -> Vec<f64> {
 }
 
 /// Of `all` that was tried, in the amounts of each shape one after another, what is nearer than the amounts beside it, in
-/// the order of `all`. The least amount is as good as none.
+/// the order of `all`. Beside the least amount is none, of which the model `alone` is as far.
 pub(super) fn dips(
     rigs: &[(Kind, Rig)],
-    all: &[Ahead],
+    (alone, all): (f64, &[Ahead]),
     many: impl Fn(Kind) -> usize,
 ) -> Vec<Ahead> {
     let mut far = vec![f64::INFINITY; rigs.len()];
@@ -33,8 +33,9 @@ pub(super) fn dips(
     let mut from = 0;
     while let Some((kind, _)) = rigs.get(from) {
         let end = from + many(*kind).max(1);
-        for i in from + 1..end {
-            dip[i] = far[i] < far[i - 1] && (i + 1 == end || far[i] < far[i + 1]);
+        for i in from..end {
+            let less = if i == from { alone } else { far[i - 1] };
+            dip[i] = far[i] < less && (i + 1 == end || far[i] < far[i + 1]);
         }
         from = end;
     }
@@ -74,8 +75,12 @@ mod tests {
         let ahead = |place: usize| Ahead { far: far[place], kind, place, rig: made::rig(2.0) };
         let mut all: Vec<Ahead> = (0..2 * many).filter(|i| *i != many + 5).map(ahead).collect();
         all.sort_by(|a, b| a.far.total_cmp(&b.far));
-        let places: Vec<usize> = dips(&rigs, &all, |_| many).iter().map(|a| a.place).collect();
-        assert_eq!(places, [many + 4, 3, many - 1, many + 6]);
-        assert!(dips(&[], &[], |_| many).is_empty());
+        let places = |alone: f64| -> Vec<usize> {
+            dips(&rigs, (alone, &all), |_| many).iter().map(|a| a.place).collect()
+        };
+        assert_eq!(places(2.9), [many + 4, 3, many - 1, many + 6]);
+        // Without it the model is farther than with the least amount of either shape, nearer than the one above it.
+        assert_eq!(places(3.1), [many + 4, 3, many - 1, 0, many, many + 6]);
+        assert!(dips(&[], (3.0, &[]), |_| many).is_empty());
     }
 }

@@ -106,8 +106,9 @@ impl Walk<'_> {
         let mut near: Vec<(usize, Ahead)> = Vec::new();
         for (place, point) in points.iter().enumerate() {
             let rigs = self.tried(point, context);
-            if let Ok((_, all)) = there(point).and_then(|point| board.ahead(&point, &rigs)) {
-                let (place, all) = if lost { (place, dips(&rigs, &all, many)) } else { (0, all) };
+            if let Ok((alone, all)) = there(point).and_then(|point| board.ahead(&point, &rigs)) {
+                let dips = || dips(&rigs, (alone, &all), many);
+                let (place, all) = if lost { (place, dips()) } else { (0, all) };
                 near.extend(all.into_iter().map(|a| (place, a)));
             }
         }
