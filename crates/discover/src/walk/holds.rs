@@ -26,6 +26,10 @@ use std::cmp::Ordering;
 /// Of two ways that hold nothing the nearer one leaves so many times less, if it is to count.
 const NOTABLY: f64 = 1.02;
 
+/// So many candidates are asked for their input's other ways, of those that leave no more than so many times the least.
+const RIVALS: usize = 3;
+const RIVAL: f64 = 1.5;
+
 /// Looks for what the model `rig` of the record `data` lacks. Where the rig file does not say what the input does between
 /// its samples the record does: beside the nominal model, beside the nearest of every round, and once more beside the
 /// last one.
@@ -104,36 +108,51 @@ fn notably_nearer(ways: Vec<Otherwise>) -> Option<Hold> {
 }
 
 impl Walk<'_> {
-    /// A model with its input each of the other ways, where they are asked.
-    fn other_ways(&self, rig: &Rig, near: &Fitted) -> Result<Vec<Otherwise>, FitError> {
+    /// A model `near` this one with its input each of the other ways, where they are asked, beside another model this way.
+    fn other_ways(
+        &self,
+        (rig, near): (&Rig, &Fitted),
+        here: &Fitted,
+    ) -> Result<Vec<Otherwise>, FitError> {
         let one = |other: &Data| {
             let board = Board { data: other, ..self.board.clone() };
             let there = board.fit_near(rig, &near.pieces, &FIRST)?;
-            let [here, there] = [near, &there].map(|fitted| self.judged(&fitted.blocks));
+            let [here, there] = [here, &there].map(|fitted| self.judged(&fitted.blocks));
             let share = there.level() / here.level();
             Ok(Otherwise { hold: other.hold, t: here.against(&there), share })
         };
         self.others.par_iter().map(one).collect()
     }
 
-    /// The way in which the nearest of the candidates, or without one the last model, is surely much nearer to the
-    /// record, if there is one: then this is the wrong one, and what is missing with it is another thing. What is at the
-    /// floor is there already.
+    /// The way in which one of the nearest candidates, or without any the last model, is surely much nearer to the record
+    /// than all are this way, if there is one: then this is the wrong one, and what is missing with it is another thing. What
+    /// is at the floor is there already.
     pub(super) fn turns(&self, all: &[Candidate]) -> Result<Option<Hold>, FitError> {
         if self.others.is_empty() {
             return Ok(None);
         }
-        let all = all.iter().map(|candidate| &candidate.fitted).chain([&self.best]);
         let level = |fitted: &Fitted| self.judged(&fitted.blocks).level();
-        let near = all.min_by(|a, b| level(a).total_cmp(&level(b))).unwrap_or(&self.best);
+        let all = all.iter().map(|candidate| &candidate.fitted).chain([&self.best]);
+        let mut all: Vec<(f64, &Fitted)> = all.map(|fitted| (level(fitted), fitted)).collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let nearest = all.first().map_or(f64::INFINITY, |(nearest, _)| *nearest);
+        all.retain(|(own, _)| *own <= RIVAL * nearest);
+        all.truncate(RIVALS);
         // Refitted as far as the others will be: a candidate may still be on its way.
-        let near = self.board.fit(&near.rig, Some((&near.x, &near.pieces)), &FIRST)?;
-        if level(&near) < ABOVE {
+        let fit = |(_, near): &(f64, &Fitted)| {
+            self.board.fit(&near.rig, Some((&near.x, &near.pieces)), &FIRST)
+        };
+        let all: Vec<Fitted> = all.par_iter().map(fit).collect::<Result<_, _>>()?;
+        let here = all.iter().min_by(|a, b| level(a).total_cmp(&level(b))).unwrap_or(&self.best);
+        if level(here) < ABOVE {
             return Ok(None);
         }
-        let mut ways = self.other_ways(&near.rig, &near)?;
-        if let Some(late) = self.late(&near.rig) {
-            ways.extend(self.other_ways(&late, &near)?);
+        let mut ways = Vec::new();
+        for near in &all {
+            ways.extend(self.other_ways((&near.rig, near), here)?);
+        }
+        if let Some(late) = self.late(&here.rig) {
+            ways.extend(self.other_ways((&late, here), here)?);
         }
         Ok(notably_nearer(ways))
     }
@@ -161,7 +180,7 @@ impl Walk<'_> {
             if self.given.effects.iter().any(|own| own.name == effect.name) {
                 continue;
             }
-            let all = self.other_ways(&lacking(&best.rig, &effect.name), best)?;
+            let all = self.other_ways((&lacking(&best.rig, &effect.name), best), best)?;
             if let Some(hold) = nearest(all, |other| other.share < ALIKE) {
                 return Ok(Some(hold));
             }
@@ -173,7 +192,7 @@ impl Walk<'_> {
             let by = if differs { 1.0 } else { NOTABLY };
             other.share * by < 1.0 && other.t > UNSURE || differs && leaves && other.t > -SURE
         };
-        Ok(nearest(self.other_ways(&best.rig, best)?, nearer))
+        Ok(nearest(self.other_ways((&best.rig, best), best)?, nearer))
     }
 }
 
@@ -194,7 +213,7 @@ fn simpler(one: &Discovery, other: &Discovery, free: &[String]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Data, Discovery, End, Hold, Moved, Rig, simpler, simplest};
+    use super::{Candidate, Data, Discovery, End, Hold, Kind, Moved, Rig, simpler, simplest};
     use crate::{
         verdict::{Value, Verdict},
         walk::made,
@@ -257,6 +276,35 @@ mod tests {
         assert!(
             walk.late(&late).is_none() && made::walk(&bias, &straight, &[]).late(&bias).is_none()
         );
+    }
+
+    #[test]
+    fn what_is_not_the_nearest_this_way_may_be_so_the_other() {
+        // Every sixteenth sample of an input that goes straight and comes 40 ms late, as one that is held does.
+        let all = made::data();
+        let some = |values: &[f64], first: usize| -> Vec<f64> {
+            values[first..].iter().copied().step_by(16).take(240).collect()
+        };
+        let seen = &all.displacement.as_ref().expect("it is seen").values;
+        let with = |hold: Hold| {
+            let seen = Seen::new("position", some(seen, 0), 0.0);
+            Data::driven(some(&all.time, 0), some(&all.input, 8), hold, seen)
+        };
+        let [straight, held] = [Hold::Linear, Hold::ZeroOrder].map(with);
+        let bias = made::with(&made::rig(2.0), Kind::CurrentBias, &[made::BIAS]);
+        // 35 ms too late where the other is 40 ms too soon, and 75 ms where that is right.
+        let mut late = made::with(&bias, Kind::InputDelay, &[0.075]);
+        late.free.retain(|free| free != "input_delay.delay");
+        let others = [held];
+        let mut walk = made::walk(&late, &straight, &[]);
+        walk.others = &others;
+        assert_eq!(walk.turns(&[]).unwrap(), None);
+        let fitted = walk.board.judged(&bias, None).unwrap();
+        let candidate = Candidate { kind: Kind::CurrentBias, fitted };
+        let [nearest, next] =
+            [&walk.best, &candidate.fitted].map(|own| walk.judged(&own.blocks).level());
+        assert!(nearest < next && next < super::RIVAL * nearest, "{nearest} and {next}");
+        assert_eq!(walk.turns(&[candidate]).unwrap(), Some(Hold::ZeroOrder));
     }
 
     #[test]
