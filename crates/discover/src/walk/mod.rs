@@ -276,15 +276,20 @@ impl Walk<'_> {
             return Ok(None);
         }
         // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.
-        if self.may_begin(now.level(), round) && !all.iter().any(|c| self.down(&now, c, context)) {
-            let joints = self.begun(context);
+        let level = now.level();
+        let begins = self.may_begin(level, round);
+        let joints = if begins && !all.iter().any(|c| self.down(&now, c, context)) {
+            self.begun(context)
+        } else if self.joins && (level <= ABOVE || self.explained(level)) {
+            self.nearly_rigid(context)
+        } else {
+            Vec::new()
+        };
+        if !joints.is_empty() {
             all.extend(self.finely(joints)?);
             let beside = self.beside(&all, context);
             all.extend(self.finely(beside)?);
             all = self.told_apart(&now, all, context)?;
-        } else if self.joins && now.level() <= ABOVE {
-            let gives = self.nearly_rigid(context);
-            all.extend(self.finely(gives)?);
         }
         let others = self.other_forms(&all, context);
         all.extend(self.finely(others)?);
