@@ -253,19 +253,21 @@ mod tests {
         assert_eq!(asked(&bias, &ways[1], &ways[..1]), [None; 2]);
     }
 
-    #[test]
-    fn an_input_that_comes_late_is_not_held_for_that() {
-        // Every sixteenth sample of an input that goes straight and comes 20 ms late: held it would be 40 ms.
+    /// Every sixteenth sample of the record, its input late by so many samples of it.
+    fn late_by(samples: usize, hold: Hold) -> Data {
         let all = made::data();
         let some = |values: &[f64], first: usize| -> Vec<f64> {
             values[first..].iter().copied().step_by(16).take(240).collect()
         };
         let seen = &all.displacement.as_ref().expect("it is seen").values;
-        let with = |hold: Hold| {
-            let seen = Seen::new("position", some(seen, 0), 0.0);
-            Data::driven(some(&all.time, 0), some(&all.input, 4), hold, seen)
-        };
-        let [held, straight] = [with(Hold::ZeroOrder), with(Hold::Linear)];
+        let seen = Seen::new("position", some(seen, 0), 0.0);
+        Data::driven(some(&all.time, 0), some(&all.input, samples), hold, seen)
+    }
+
+    #[test]
+    fn an_input_that_comes_late_is_not_held_for_that() {
+        // Every sixteenth sample of an input that goes straight and comes 20 ms late: held it would be 40 ms.
+        let [held, straight] = [Hold::ZeroOrder, Hold::Linear].map(|hold| late_by(4, hold));
         let bias = made::with(&made::rig(2.0), identify::effects::Kind::CurrentBias, &[made::BIAS]);
         let ways = [straight.clone()];
         let mut walk = made::walk(&bias, &held, &[]);
@@ -281,16 +283,7 @@ mod tests {
     #[test]
     fn what_is_not_the_nearest_this_way_may_be_so_the_other() {
         // Every sixteenth sample of an input that goes straight and comes 40 ms late, as one that is held does.
-        let all = made::data();
-        let some = |values: &[f64], first: usize| -> Vec<f64> {
-            values[first..].iter().copied().step_by(16).take(240).collect()
-        };
-        let seen = &all.displacement.as_ref().expect("it is seen").values;
-        let with = |hold: Hold| {
-            let seen = Seen::new("position", some(seen, 0), 0.0);
-            Data::driven(some(&all.time, 0), some(&all.input, 8), hold, seen)
-        };
-        let [straight, held] = [Hold::Linear, Hold::ZeroOrder].map(with);
+        let [straight, held] = [Hold::Linear, Hold::ZeroOrder].map(|hold| late_by(8, hold));
         let bias = made::with(&made::rig(2.0), Kind::CurrentBias, &[made::BIAS]);
         // 35 ms too late where the other is 40 ms too soon, and 75 ms where that is right.
         let mut late = made::with(&bias, Kind::InputDelay, &[0.075]);
