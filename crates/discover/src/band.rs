@@ -10,12 +10,15 @@ use identify::fit::data::Band;
 /// the one before.
 const LENGTHS: [usize; 11] = [32, 45, 64, 90, 128, 181, 256, 362, 512, 724, 1024];
 
-/// Kaiser's β: what is outside of the band is smaller by 85 dB, and what is inside is as it was but for as much.
+/// Kaiser's β, at least: what is outside of the band is smaller by 85 dB, and what is inside is as it was but for as much.
 const BETA: f64 = 8.3;
 
 /// With that β the way from pass to stop is so wide, of 2π over a filter's whole length [1]; the band begins to end at twice and
 /// ends at three times that.
 const WAY: f64 = 5.36;
+
+/// What a filter does to an input is to be less than its noise by so much [dB].
+const BELOW: f64 = 25.0;
 
 /// What is left beside a band is noise if its mean square is by fewer than so many standard errors more, in all between one
 /// band and the next, and in each stretch of so many samples; the noise is known to a few hundredths.
@@ -23,6 +26,10 @@ const BETWEEN: f64 = 3.0;
 const IN_EACH: f64 = 5.5;
 const STRETCH: usize = 32;
 const KNOWN: f64 = 0.03;
+
+/// What the widest band leaves tells the noise better than differences do, which are off by less than so much of it: else it is
+/// no noise alone.
+const NEAR: f64 = 0.1;
 
 /// A band ends sharply if so many times the noise is beyond the last filter, or beyond that and within one twice as long. One
 /// filter more than the noise asks for is spared; of a band that ends slowly, as that of a triangle with its corners, so many, each
@@ -45,7 +52,7 @@ pub(crate) fn banded(u: &[f64], noise: f64, otherwise: Vec<f64>) -> (Vec<f64>, O
     };
     let pairs = values.into_iter().zip(otherwise).zip(&inside);
     let input = pairs.map(|((own, other), inside)| if *inside { own } else { other }).collect();
-    (input, Some(Band { edge: edge(filter.half()), inside }))
+    (input, Some(Band { edge: filter.edge, inside }))
 }
 
 /// What a filter makes of an input.
@@ -80,49 +87,89 @@ impl Passed {
 
 /// What the filter of the narrowest band that is surely whole makes of `u`; none if no band is narrow.
 fn narrowest(u: &[f64], noise: f64) -> Option<Passed> {
-    let all = Filter { weights: vec![1.0] };
-    let mut passed = vec![Passed { filter: all, values: u.to_vec(), inside: vec![true; u.len()] }];
+    if noise <= 0.0 {
+        return None;
+    }
+    let noise = told(u, noise);
+    let all = Passed { filter: Filter::all(), values: u.to_vec(), inside: vec![true; u.len()] };
+    let of = |half: usize| Filter::of(half, decibels(u, noise));
+    let mut passed = vec![all];
     for half in LENGTHS.into_iter().filter(|half| 4 * half < u.len()) {
-        let next = Passed::of(Filter::of(half), u, noise);
+        let next = Passed::of(of(half), u, noise);
         let many = next.inside.iter().filter(|inside| **inside).count() as f64;
         let last = &passed[passed.len() - 1];
         let [left, most] = last.left((&next.filter, &next.values), &next.inside, noise);
-        if many <= (1.0 - OUTSIDE) * u.len() as f64 || left > most {
+        // By less than twice that it is chance, if there is no more between this one and the next: a band's end has more there.
+        let goes_on = || {
+            let further = Passed::of(of(half + half / 2), u, noise);
+            let [left, most] =
+                next.left((&further.filter, &further.values), &further.inside, noise);
+            left > most
+        };
+        let ends = left > most && (left - 1.0 > 2.0 * (most - 1.0) || goes_on());
+        if many <= (1.0 - OUTSIDE) * u.len() as f64 || ends {
             // A band that ends slowly has some of its end beside it, hidden in the noise.
             let whole = vec![true; u.len()];
             let beyond = |wider: &Passed, filter: &Filter| {
                 wider.left((filter, &filter.pass(u)), &whole, noise)[0]
             };
-            let sharp =
-                beyond(last, &next.filter).max(beyond(&next, &Filter::of(2 * half))) > SHARP;
+            let sharp = beyond(last, &next.filter).max(beyond(&next, &of(2 * half))) > SHARP;
             let spared = if sharp { 1 } else { SPARE };
             passed.truncate(passed.len().saturating_sub(spared));
             break;
         }
         passed.push(next);
     }
-    let narrow = |own: &Passed| edge(own.filter.half()) < NARROW * std::f64::consts::PI;
+    let narrow = |own: &Passed| own.filter.edge < NARROW * std::f64::consts::PI;
     passed.pop().filter(narrow)
 }
 
-/// A low-pass filter: the weights of the middle sample and of those to one side.
+/// By how much a filter of `u` has to stop what is beside a band, not to be seen in this `noise` [dB].
+fn decibels(u: &[f64], noise: f64) -> f64 {
+    let largest = u.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
+    20.0 * (largest / noise).log10() + BELOW
+}
+
+/// The noise by what the widest band leaves, where that is about as much as this `noise`.
+fn told(u: &[f64], noise: f64) -> f64 {
+    let widest = Filter::of(LENGTHS[0], decibels(u, noise));
+    let (margin, share) = (widest.half(), Filter::all().beside(&widest));
+    let all = margin..u.len().saturating_sub(margin);
+    let n = all.len() as f64;
+    let squares: f64 = all.map(|i| (u[i] - widest.at(u, i)).powi(2)).sum();
+    let own = (squares / n / share).sqrt();
+    if (own / noise - 1.0).abs() < NEAR { own } else { noise }
+}
+
+/// A low-pass filter.
 #[derive(Debug, Clone)]
 struct Filter {
+    /// The weights of the middle sample and of those to one side.
     weights: Vec<f64>,
+    /// The middle of its way from pass to stop [rad a sample].
+    edge: f64,
 }
 
 impl Filter {
-    /// Of so many samples to either side.
-    fn of(half: usize) -> Self {
-        let (far, edge) = (half as f64, edge(half));
+    /// That which passes all.
+    fn all() -> Self {
+        Self { weights: vec![1.0], edge: std::f64::consts::PI }
+    }
+
+    /// Of so many samples to either side, which stops by so many `decibels`, by Kaiser's formulas for β and the way from pass to stop.
+    fn of(half: usize, decibels: f64) -> Self {
+        let beta = BETA.max(0.1102 * (decibels - 8.7));
+        let way = WAY.max((decibels - 7.95) / (2.285 * 2.0 * std::f64::consts::PI));
+        let far = half as f64;
+        let edge = 2.5 * std::f64::consts::PI * way / far;
         let one = |k: usize| {
             let x = k as f64;
             let sinc = if k == 0 { edge } else { (edge * x).sin() / x };
-            sinc * bessel(BETA * (1.0 - (x / (far + 1.0)).powi(2)).max(0.0).sqrt())
+            sinc * bessel(beta * (1.0 - (x / (far + 1.0)).powi(2)).max(0.0).sqrt())
         };
         let weights: Vec<f64> = (0..=half).map(one).collect();
         let sum = 2.0 * weights.iter().sum::<f64>() - weights[0];
-        Self { weights: weights.into_iter().map(|w| w / sum).collect() }
+        Self { weights: weights.into_iter().map(|w| w / sum).collect(), edge }
     }
 
     /// How many samples it has to one side.
@@ -158,7 +205,7 @@ impl Filter {
     /// Which samples have room for it on either side, with no more than noise beside the values that it leaves so far about.
     fn inside(&self, (u, values): (&[f64], &[f64]), noise: f64) -> Vec<bool> {
         let margin = self.half();
-        let all = noise * noise * Self { weights: vec![1.0] }.beside(self);
+        let all = noise * noise * Self::all().beside(self);
         let most = STRETCH as f64 * all * (1.0 + IN_EACH * (2.0 / STRETCH as f64).sqrt());
         let mut inside = vec![false; u.len()];
         inside[margin..u.len() - margin].fill(true);
@@ -175,11 +222,6 @@ impl Filter {
     }
 }
 
-/// The middle of a filter's way from pass to stop [rad a sample].
-fn edge(half: usize) -> f64 {
-    2.5 * std::f64::consts::PI * WAY / half as f64
-}
-
 /// I₀, the modified Bessel function of the first kind, by its series.
 fn bessel(x: f64) -> f64 {
     let (mut sum, mut term) = (1.0, 1.0);
@@ -192,7 +234,7 @@ fn bessel(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Band, Filter, banded, edge};
+    use super::{Band, Filter, banded};
     use crate::input::{
         smoothed,
         tests::{NOISE, noisy, off},
@@ -219,6 +261,24 @@ mod tests {
         let share = (band.edge / std::f64::consts::PI).sqrt();
         assert!((left / share - 1.0).abs() < 0.2, "{left} of the noise for {share}");
         assert!(left < 0.6 * off(&smoothed(&noisy(&clean), NOISE), &clean) / NOISE);
+    }
+
+    #[test]
+    fn a_quiet_band_is_known_by_it_too() {
+        // A chirp, and tones, whose noise is 90 dB below them: a filter of 85 dB does more to them than that.
+        let chirp = |t: f64| (0.003 * t + 1.1e-6 * t * t).sin();
+        let tones = |t: f64| (0.0023 * t).sin() + (0.011 * t).sin() + (0.05 * t).sin();
+        for way in [&chirp as &dyn Fn(f64) -> f64, &tones] {
+            let clean: Vec<f64> = (0..12_000).map(|i| 3e4 * NOISE * way(f64::from(i))).collect();
+            let (found, band) = by_band(&noisy(&clean));
+            let band = band.expect("it has one");
+            let inside = |u: &[f64]| -> Vec<f64> {
+                u.iter().zip(&band.inside).filter(|(_, own)| **own).map(|(u, _)| *u).collect()
+            };
+            let left = off(&inside(&found), &inside(&clean)) / NOISE;
+            let share = (band.edge / std::f64::consts::PI).sqrt();
+            assert!(left < 1.3 * share && share < 0.25, "{left} of the noise for {share}");
+        }
     }
 
     #[test]
@@ -254,18 +314,20 @@ mod tests {
 
     #[test]
     fn a_filter_passes_its_band_and_stops_what_is_above() {
-        let filter = Filter::of(128);
-        let gain = |share: f64| {
-            let tone: Vec<f64> =
-                (-128..=128).map(|i| (share * edge(128) * f64::from(i)).cos()).collect();
-            filter.at(&tone, 128)
-        };
-        // From four to six fifths of the edge it goes from one to nothing.
-        for share in [0.0, 0.3, 0.6, 0.8] {
-            assert!((gain(share) - 1.0).abs() < 1e-4, "{}", gain(share));
-        }
-        for share in [1.2, 1.5, 3.0, 9.0] {
-            assert!(gain(share).abs() < 1e-4, "{}", gain(share));
+        for (decibels, most) in [(60.0, 1e-4), (120.0, 1.5e-6)] {
+            let filter = Filter::of(128, decibels);
+            let gain = |share: f64| {
+                let tone: Vec<f64> =
+                    (-128..=128).map(|i| (share * filter.edge * f64::from(i)).cos()).collect();
+                filter.at(&tone, 128)
+            };
+            // From four to six fifths of the edge it goes from one to nothing.
+            for share in [0.0, 0.3, 0.6, 0.8] {
+                assert!((gain(share) - 1.0).abs() < most, "{}", gain(share));
+            }
+            for share in [1.2, 1.5, 3.0, 6.0] {
+                assert!(gain(share).abs() < most, "{}", gain(share));
+            }
         }
     }
 

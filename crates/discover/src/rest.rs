@@ -2,6 +2,7 @@
 //! such noise forgets what it holds, and one under load creeps.
 
 use identify::fit::Data;
+use std::ops::Range;
 
 /// What lies within so many standard deviations of the noise, over at least so many samples, may be at rest.
 const WITHIN: f64 = 7.0;
@@ -13,11 +14,11 @@ const MOVING: f64 = 4.0;
 /// Values that spread by so many standard errors of a variance more than their noise lets them are not at rest.
 const SPREAD: f64 = 4.0;
 
-/// `data` as its motion is simulated: an imposed one rests where it does, and an input is as its band has it or, where it has
-/// none, held where it is and laid smooth elsewhere.
+/// `data` as its motion is simulated: an imposed one is as its band has it, or rests where it does, and an input is as its band has
+/// it or, where it has none, held where it is and laid smooth elsewhere.
 pub(crate) fn still(data: &Data) -> Data {
     if data.force.is_some() {
-        return rested(data);
+        return imposed(data);
     }
     let noise = crate::chatter::noise_of_input(data);
     let rested = Data { averaged: Some(noise), ..rested(data) };
@@ -28,6 +29,40 @@ pub(crate) fn still(data: &Data) -> Data {
     let smooth = crate::input::smoothed(&rested.input, noise);
     let (input, band) = crate::band::banded(&data.input, noise, smooth);
     Data { input, band, ..rested }
+}
+
+/// An imposed motion as its band has it or, where it has none, laid smooth; at rest where it is for longer than a wave of that band
+/// turns.
+fn imposed(data: &Data) -> Data {
+    let rested = rested(data);
+    let noise = crate::floor::noise_of_displacement(&rested.input);
+    let mut otherwise = crate::input::smoothed(&data.input, noise);
+    let mut rests: Vec<Range<usize>> = Vec::new();
+    let mut first = 0;
+    for run in rested.input.chunk_by(|a, b| a == b) {
+        let own = first..first + run.len();
+        first = own.end;
+        if run.len() >= LEAST {
+            otherwise[own.clone()].copy_from_slice(run);
+            rests.push(own);
+        }
+    }
+    let (mut input, mut band) = crate::band::banded(&data.input, noise, otherwise);
+    if let Some(band) = &mut band {
+        // Where a wave turns it is all but still, for less than two of its periods, and a rest begins and ends with some of the way.
+        let wave = 4.0 * std::f64::consts::PI / band.edge;
+        for mut own in rests {
+            while own.len() as f64 > wave && spreads(&data.input[own.clone()], noise) {
+                own = own.start + LEAST / 2..own.end - LEAST / 2;
+            }
+            if own.len() as f64 > wave {
+                let mean = data.input[own.clone()].iter().sum::<f64>() / own.len() as f64;
+                input[own.clone()].fill(mean);
+                band.inside[own].fill(false);
+            }
+        }
+    }
+    Data { input, averaged: Some(noise), band, ..rested }
 }
 
 /// `data` with the imposed displacement, or the input, replaced by its mean wherever it rests.
@@ -156,6 +191,38 @@ mod tests {
         let left = off(&known.input, &clean) / NOISE;
         let share = (band.edge / std::f64::consts::PI).sqrt();
         assert!((left / share - 1.0).abs() < 0.2, "{left} of the noise for {share}");
+    }
+
+    #[test]
+    fn an_imposed_motion_is_as_its_band_has_it_and_rests_where_it_does() {
+        // Forth and back in two seconds, and a rest of two.
+        let way = |i: usize| 1.0 - (std::f64::consts::PI * (i % 800).min(400) as f64 / 200.0).cos();
+        let clean: Vec<f64> = (0..12_000).map(way).collect();
+        let force = Seen::new("force", noisy(&clean), 0.0);
+        let time = (0..12_000).map(|i| 0.005 * f64::from(i)).collect();
+        let driven = Data::driven(time, noisy(&clean), Hold::Linear, force.clone());
+        let seen = Data { displacement: None, force: Some(force), ..driven };
+        let known = still(&seen);
+        let band = known.band.as_ref().expect("it has one");
+        let rests = |i: usize| known.input[i] == known.input[i + 1];
+        let all = || (1000..11_000).filter(|i| (20..780).contains(&(i % 800)));
+        let (resting, moving) = (all().filter(|i| i % 800 > 420), all().filter(|i| i % 800 < 380));
+        // A few of 5400 samples begin a rest anew: noise goes further once in a while.
+        let not = resting.clone().filter(|i| !rests(*i) || band.inside[*i]).count();
+        assert!(not < 30, "{not} do not rest");
+        // Of the way a little beside a rest is within noise.
+        let resting_ways = moving.clone().filter(|i| rests(*i) || !band.inside[*i]).count();
+        assert!(resting_ways < 100, "{resting_ways} of 4500 samples rest on the way");
+        let of = |u: &[f64]| moving.clone().map(|i| u[i]).collect::<Vec<f64>>();
+        let left = off(&of(&known.input), &of(&clean)) / NOISE;
+        // Where a rest ends it has no band, but for one that is hidden in the noise.
+        assert!(left < 0.6, "{left} of the noise is left");
+        assert!((known.averaged.unwrap() / NOISE - 1.0).abs() < 0.05);
+        // What an encoder shows at rest is no noise to lay smooth.
+        let steps = clean.iter().map(|u| (u / 0.01).round() * 0.01).collect();
+        let stepped = still(&Data { input: steps, ..seen });
+        let not = resting.filter(|i| stepped.input[*i] != stepped.input[i + 1]).count();
+        assert!(not < 30, "{not} do not rest");
     }
 
     #[test]

@@ -22,6 +22,11 @@ impl Colour {
         let Some(band) = data.band.as_ref().filter(inside) else {
             return Self { by: [0.0; 2], new: noise };
         };
+        Self::within(band, noise)
+    }
+
+    /// That of all that is left in a band of white `noise`.
+    pub(super) fn within(band: &Band, noise: f64) -> Self {
         // The poles e^{ω(−1 ± i)/√2}.
         let part = band.edge / 2f64.sqrt();
         let by = [2.0 * (-part).exp() * part.cos(), -(-2.0 * part).exp()];

@@ -18,6 +18,7 @@ mod gap;
 pub mod hold;
 mod imposed;
 mod interval;
+mod linked;
 mod loads;
 pub mod models;
 pub mod newton;

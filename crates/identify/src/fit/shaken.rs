@@ -3,11 +3,13 @@
 //! The error of each sample moves the ways to the samples beside it and the velocities there, and what it does to the
 //! contact's states lasts until these forget it: as with the noise of a recorded input, many residuals are off together,
 //! and [`Whitening`] tells what of each is new. While the motion rests the displacement is the mean of all samples of the
-//! rest, which share its error.
+//! rest, which share its error; where it was cut to its band what is left of its noise hangs together as that says.
 
 use super::{
-    displacement::{REST, corners, velocity, way},
+    data::Band,
+    displacement::{corners, velocity, way},
     imposed::{Sliding, Step, near},
+    linked::{Link, errors},
     problem::Problem,
     whitening::Whitening,
 };
@@ -28,8 +30,8 @@ pub struct Shaken {
     states: usize,
     /// The standard deviation of the displacement at each sample [m].
     noise: Vec<f64>,
-    /// Whether a sample has the error of that before it.
-    same: Vec<bool>,
+    /// How the error of every sample follows from those before it.
+    links: Vec<Link>,
     /// What each error of the first displacements, by one standard deviation, makes of the states at the first sample.
     errors: Vec<DVector<f64>>,
     /// And that of the first force, by which the contact is begun.
@@ -46,7 +48,8 @@ impl Problem<'_> {
     pub fn shaken(&self, x: &[f64], noise: f64) -> Option<Shaken> {
         let force = self.data.force.as_ref().filter(|_| noise > 0.0)?;
         let record = (self.data.time.as_slice(), self.data.input.as_slice());
-        Some(Shaken::of(&self.model(x), record, (force.values[0], self.weights.force), noise))
+        let known = (noise, self.data.band.as_ref());
+        Some(Shaken::of(&self.model(x), record, (force.values[0], self.weights.force), known))
     }
 }
 
@@ -95,16 +98,22 @@ impl<'a> Motion<'a> {
 }
 
 impl Shaken {
-    /// `seen` is the first force and its standard deviation [N].
-    fn of(model: &Model<f64>, (time, u): (&[f64], &[f64]), seen: (f64, f64), noise: f64) -> Self {
-        let (noise, same) = errors(u, noise);
+    /// `seen` is the first force and its standard deviation [N], `known` the noise of the displacement and its band.
+    fn of(
+        model: &Model<f64>,
+        (time, u): (&[f64], &[f64]),
+        seen: (f64, f64),
+        known: (f64, Option<&Band>),
+    ) -> Self {
+        let (noise, links) = errors(u, known);
         let corners = corners(u);
         let mut motion = Motion { model, time, corners: &corners, u: u.to_vec() };
         let mut sliding = motion.begun(seen.0);
         motion.sample(&mut sliding, 0);
         let states = sliding.states().count();
         let begun = DVector::zeros(states + KEPT);
-        let mut all = Self { states, noise, same, errors: Vec::new(), begun, passings: Vec::new() };
+        let mut all =
+            Self { states, noise, links, errors: Vec::new(), begun, passings: Vec::new() };
         all.start(&mut motion, seen);
         // By how much the states have differed with an error, at most.
         let mut sizes = vec![0.0; states];
@@ -148,6 +157,7 @@ impl Shaken {
             }
             self.write(&mut passing, column, &by);
         }
+        self.link(&mut passing, i);
         for (k, size) in sizes.iter().enumerate().filter(|(_, size)| **size > 0.0) {
             let [up, down] = [*size, -size].map(|by| {
                 let mut other = sliding.clone();
@@ -164,10 +174,8 @@ impl Shaken {
         let n = self.states;
         let mut by = DMatrix::zeros(n + KEPT + 1, n + KEPT);
         let mut new = DVector::zeros(n + KEPT + 1);
-        match self.same.get(i + REACH) {
-            Some(true) => by[(n, n)] = 1.0,
-            Some(false) => new[n] = 1.0,
-            None => {}
+        if i + REACH < self.links.len() {
+            new[n] = 1.0;
         }
         for k in 1..KEPT {
             by[(n + k, n + k - 1)] = 1.0;
@@ -175,17 +183,26 @@ impl Shaken {
         (by, new)
     }
 
+    /// Writes what comes of the newest error as what comes of those before it and of what is new.
+    fn link(&self, (by, new): &mut (DMatrix<f64>, DVector<f64>), i: usize) {
+        let Some(link) = self.links.get(i + REACH) else { return };
+        for (column, share) in link.by.iter().enumerate() {
+            by.column_mut(self.states + column).axpy(*share, new, 1.0);
+        }
+        *new *= link.new;
+    }
+
     /// On which errors sample `i` depends: of the samples that share it those within reach, and the column of their
     /// derivatives, none for that of the new one.
     fn asked(&self, i: usize) -> Vec<(Range<usize>, Option<usize>)> {
-        let (first, last) = (i.saturating_sub(REACH), (i + REACH).min(self.same.len() - 1));
+        let (first, last) = (i.saturating_sub(REACH), (i + REACH).min(self.links.len() - 1));
         let mut asked = Vec::new();
         let mut from = first;
         for j in first..=last {
-            if j < last && self.same[j + 1] {
+            if j < last && self.links[j + 1] == Link::SAME {
                 continue;
             }
-            let new = j == i + REACH && !self.same[j];
+            let new = j == i + REACH && self.links[j] != Link::SAME;
             // That of sample i + 1 is the first that is kept.
             let column = self.states + (i + 1).saturating_sub(j);
             asked.push((from..j + 1, Some(column).filter(|_| !new)));
@@ -257,25 +274,9 @@ fn half(up: &[f64], down: &[f64]) -> DVector<f64> {
     DVector::from_iterator(up.len(), up.iter().zip(down).map(|(up, down)| 0.5 * (up - down)))
 }
 
-/// The standard deviation of every sample of the displacement `u` [m], each sample having so much `noise`, and which of
-/// them have the error of that before them.
-fn errors(u: &[f64], noise: f64) -> (Vec<f64>, Vec<bool>) {
-    let (mut own, mut same) = (vec![noise; u.len()], vec![false; u.len()]);
-    let mut first = 0;
-    for rest in u.chunk_by(|a, b| a == b) {
-        let end = first + rest.len();
-        if rest.len() >= REST {
-            own[first..end].fill(noise / (rest.len() as f64).sqrt());
-            same[first + 1..end].fill(true);
-        }
-        first = end;
-    }
-    (own, same)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Shaken, errors};
+    use super::{Band, Shaken, errors};
     use crate::fit::{
         displacement::Course,
         imposed::{forces, tests::model},
@@ -319,7 +320,7 @@ mod tests {
             SPRING,
             AGE,
         ] {
-            let shaken = Shaken::of(&model(friction), (&time, &u), (0.0, 0.0), 1e-11);
+            let shaken = Shaken::of(&model(friction), (&time, &u), (0.0, 0.0), (1e-11, None));
             let (error, first) = shaken.drawn(&mut || StandardNormal.sample(&mut random));
             let moved: Vec<f64> = u.iter().zip(&error).map(|(u, e)| u + e).collect();
             let (here, there) = (forced(friction, (&time, &u)), forced(friction, (&time, &moved)));
@@ -335,30 +336,35 @@ mod tests {
 
     #[test]
     fn what_noise_leaves_is_white_and_as_large_as_is_said() {
-        let mut random = ChaCha8Rng::seed_from_u64(2);
-        let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+        // As it was recorded, and 1/√20 of it, which hangs together, in a band of a twentieth of all.
         let (time, u) = motion();
-        let (noise, weight) = (4e-7, 2e-4);
-        let (own, same) = errors(&u, noise);
-        let mut seen = u.clone();
-        let mut error = 0.0;
-        for i in 0..u.len() {
-            if !same[i] {
-                error = own[i] * normal();
+        let band = Band { edge: std::f64::consts::PI / 20.0, inside: vec![true; u.len()] };
+        for band in [None, Some(band)] {
+            let mut random = ChaCha8Rng::seed_from_u64(2);
+            let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+            let known = (if band.is_some() { 4e-6 } else { 4e-7 }, band.as_ref());
+            let weight = 2e-4;
+            let (own, links) = errors(&u, known);
+            let mut error = vec![0.0; u.len()];
+            for (i, link) in links.iter().enumerate() {
+                let before = |k: usize| i.checked_sub(k).map_or(0.0, |j| error[j] / own[j]);
+                let new = link.new * normal();
+                error[i] = own[i] * (link.by[0] * before(1) + link.by[1] * before(2) + new);
             }
-            seen[i] += error;
+            let seen: Vec<f64> = u.iter().zip(&error).map(|(u, e)| u + e).collect();
+            let shaken = Shaken::of(&model(LUGRE), (&time, &seen), (0.0, 0.0), known);
+            let whitening = shaken.weighed(&|_| weight).unwrap();
+            let pairs = forced(LUGRE, (&time, &seen)).into_iter().zip(forced(LUGRE, (&time, &u)));
+            let mut left: Vec<f64> = pairs.map(|(a, b)| (a - b) / weight + normal()).collect();
+            let square = |r: &[f64]| r.iter().map(|r| r * r).sum::<f64>() / r.len() as f64;
+            let hangs = |r: &[f64]| {
+                r.windows(2).map(|r| r[0] * r[1]).sum::<f64>() / r.len() as f64 / square(r)
+            };
+            assert!(square(&left) > 4.0 && hangs(&left).abs() > 0.2, "{}", hangs(&left));
+            whitening.apply(&mut left);
+            // Of 1600 samples a mean square is off by √(2/1600) = 0.035, a correlation by 0.025.
+            assert!((square(&left) - 1.0).abs() < 0.14, "{}", square(&left));
+            assert!(hangs(&left).abs() < 0.1, "{}", hangs(&left));
         }
-        let shaken = Shaken::of(&model(LUGRE), (&time, &seen), (0.0, 0.0), noise);
-        let whitening = shaken.weighed(&|_| weight).unwrap();
-        let pairs = forced(LUGRE, (&time, &seen)).into_iter().zip(forced(LUGRE, (&time, &u)));
-        let mut left: Vec<f64> = pairs.map(|(a, b)| (a - b) / weight + normal()).collect();
-        let square = |r: &[f64]| r.iter().map(|r| r * r).sum::<f64>() / r.len() as f64;
-        let hangs =
-            |r: &[f64]| r.windows(2).map(|r| r[0] * r[1]).sum::<f64>() / r.len() as f64 / square(r);
-        assert!(square(&left) > 4.0 && hangs(&left).abs() > 0.2, "{}", hangs(&left));
-        whitening.apply(&mut left);
-        // Of 1600 samples a mean square is off by √(2/1600) = 0.035, a correlation by 0.025.
-        assert!((square(&left) - 1.0).abs() < 0.14, "{}", square(&left));
-        assert!(hangs(&left).abs() < 0.1, "{}", hangs(&left));
     }
 }
