@@ -47,7 +47,7 @@ fn imposed(data: &Data) -> Data {
             rests.push(own);
         }
     }
-    let (mut input, mut band) = crate::band::banded(&data.input, noise, otherwise);
+    let (mut input, mut band) = crate::band::finely(&data.input, noise, otherwise);
     if let Some(band) = &mut band {
         // Where a wave turns it is all but still, for less than two of its periods, and a rest begins and ends with some of the way.
         let wave = 4.0 * std::f64::consts::PI / band.edge;

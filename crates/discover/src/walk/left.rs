@@ -6,8 +6,9 @@ use super::{
     struck::{STRUCK, middle, run},
 };
 use crate::{board::Fitted, decide::Judged};
-use identify::fit::{problem::Piece, window::Window};
+use identify::fit::{Data, problem::Piece, window::Window};
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 
 /// What is left in one channel may be so much larger than its floor before it is said that more is missing: right models
 /// of the records looked at left 0.6 to 1.2 in each.
@@ -33,6 +34,9 @@ const BACK: [f64; 3] = [0.02, 0.1, 0.5];
 /// Slow is what goes with this share of the largest velocity.
 const SLOW: f64 = 0.03;
 
+/// So many places along the way are looked at.
+const PLACES: usize = 12;
+
 /// The share of a curvature that is added to it.
 const RIDGE: f64 = 1e-4;
 
@@ -43,6 +47,27 @@ struct Rest {
     together: f64,
     /// The share of its squares that the motion tells of on the judging blocks [1].
     told: f64,
+}
+
+/// How a window moves, and what is left of it.
+struct Motion<'m> {
+    window: usize,
+    /// What one channel leaves of every sample.
+    rows: Vec<f64>,
+    /// The displacement [m], velocity [m/s], and what drives it, or the force if the motion is imposed.
+    q: &'m [f64],
+    v: Vec<f64>,
+    drives: &'m [f64],
+}
+
+/// The velocities of an imposed motion at these samples [m/s].
+fn speeds(data: &Data, of: Range<usize>) -> Vec<f64> {
+    let (time, u) = (&data.time, &data.input);
+    let one = |i: usize| {
+        let (before, after) = (i.saturating_sub(1), (i + 1).min(u.len() - 1));
+        (u[after] - u[before]) / (time[after] - time[before])
+    };
+    of.map(one).collect()
 }
 
 impl Walk<'_> {
@@ -69,7 +94,8 @@ impl Walk<'_> {
     /// Whether what a model leaves is noise of the sensors or of the input that is not white: it hangs together for a
     /// few samples, is the same in all blocks, and does not hang on how the plant moves.
     fn only_noise(&self, fitted: &Fitted) -> bool {
-        let of = 1 + usize::from(self.board.data.velocity.is_some());
+        let (data, imposed) = (self.board.data, self.board.imposed());
+        let of = 1 + usize::from(!imposed && data.velocity.is_some());
         let told = |c: usize| {
             let blocks = self.channel(fitted, c);
             (c, self.judging_of(&blocks).mostly(), run(&blocks))
@@ -80,7 +106,7 @@ impl Walk<'_> {
                 rest.together < TOGETHER && rest.told < TOLD
             }
         };
-        let seen = !self.board.imposed() && self.board.data.displacement.is_some();
+        let seen = imposed || data.displacement.is_some();
         let loud = |(_, left, _): &(usize, f64, f64)| *left > MORE;
         let mut all = (0..channels(fitted)).map(told).filter(loud).peekable();
         seen && all.peek().is_some() && all.all(noise)
@@ -97,18 +123,14 @@ impl Walk<'_> {
         !self.board.imposed() && (0..of).any(|c| self.together(fitted, (c, of)) > noise(c))
     }
 
-    /// What one of `of` channels of a driven motion leaves.
+    /// What one of `of` channels leaves.
     fn rest(&self, fitted: &Fitted, (channel, of): (usize, usize)) -> Rest {
         let (board, data) = (&self.board, self.board.data);
-        let pairs = || board.windows.iter().zip(&fitted.pieces);
-        let moving = || fitted.pieces.iter().map(|piece| &piece.motion);
-        let largest =
-            |all: &mut dyn Iterator<Item = &f64>| all.fold(1e-300, |m: f64, x| m.max(x.abs()));
-        let sizes = [
-            largest(&mut moving().flat_map(|motion| &motion.q)),
-            largest(&mut moving().flat_map(|motion| &motion.v)),
-            largest(&mut data.input.iter()),
-        ];
+        let all = self.motions(fitted, (channel, of));
+        let largest = |of: &dyn Fn(&Motion<'_>) -> f64| all.iter().map(of).fold(1e-300, f64::max);
+        let most = |values: &[f64]| values.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let sizes =
+            [largest(&|m| most(m.q)), largest(&|m| most(&m.v)), largest(&|m| most(m.drives))];
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -117,19 +139,12 @@ impl Walk<'_> {
         let back = BACK.map(|back| (back / data.sample_time()).round().max(1.0) as usize);
         let mut fitting: Option<(DMatrix<f64>, DVector<f64>)> = None;
         let mut judged: Vec<(DVector<f64>, f64)> = Vec::new();
-        for (w, (window, piece)) in pairs().enumerate() {
-            let (q, v) = (&piece.motion.q, &piece.motion.v);
-            let own = piece.residuals.iter().skip(channel).step_by(of).take(window.len());
-            let rows: Vec<f64> = own.copied().collect();
-            if rows.len() < window.len() || q.len() < window.len() || v.len() < window.len() {
-                continue;
-            }
+        for Motion { window, rows, q, v, drives } in &all {
             for (i, row) in rows.iter().enumerate() {
-                let now =
-                    [q[i] / sizes[0], v[i] / sizes[1], data.input[window.first + i] / sizes[2]];
+                let now = [q[i] / sizes[0], v[i] / sizes[1], drives[i] / sizes[2]];
                 let before = back.map(|back| v[i.saturating_sub(back)] / sizes[1]);
                 let row = (DVector::from_vec(features(now, before)), *row);
-                if board.trains[board.block(w)] {
+                if board.trains[board.block(*window)] {
                     let n = row.0.len();
                     let (a, b) =
                         fitting.get_or_insert_with(|| (DMatrix::zeros(n, n), DVector::zeros(n)));
@@ -153,15 +168,32 @@ impl Walk<'_> {
         Rest { together: self.together(fitted, (channel, of)), told }
     }
 
-    /// Over how many samples what is left in one of `of` channels of a driven motion hangs together [1]; a window that went
+    /// Every window's motion with what one of `of` channels leaves of it, but for those that went astray.
+    fn motions<'m>(&'m self, fitted: &'m Fitted, (channel, of): (usize, usize)) -> Vec<Motion<'m>> {
+        let (board, data) = (&self.board, self.board.data);
+        let own = |window: usize| {
+            let Window { first, end, .. } = board.windows[window];
+            let piece = fitted.pieces.get(if board.imposed() { 0 } else { window })?;
+            let (skip, n) = if board.imposed() { (first, end - first) } else { (0, end - first) };
+            let rows = piece.residuals.iter().skip(channel).step_by(of).skip(skip).take(n);
+            let rows: Vec<f64> = rows.copied().collect();
+            let input = &data.input[first..end];
+            let Piece { motion, .. } = piece;
+            let (q, v, drives) = if board.imposed() {
+                (input, speeds(data, first..end), motion.q.get(first..end)?)
+            } else {
+                (motion.q.get(..n)?, motion.v.get(..n)?.to_vec(), input)
+            };
+            (rows.len() == n).then_some(Motion { window, rows, q, v, drives })
+        };
+        (0..board.windows.len()).filter_map(own).collect()
+    }
+
+    /// Over how many samples what is left in one of `of` channels hangs together [1]; a window that went
     /// astray by itself does so all along.
     fn together(&self, fitted: &Fitted, (channel, of): (usize, usize)) -> f64 {
-        let pairs = self.board.windows.iter().zip(&fitted.pieces);
-        let rows = |(window, piece): (&Window, &Piece)| -> Vec<f64> {
-            let own = piece.residuals.iter().skip(channel).step_by(of).take(window.len());
-            own.copied().collect()
-        };
-        let all: Vec<Vec<f64>> = pairs.map(rows).collect();
+        let motions = self.motions(fitted, (channel, of));
+        let all: Vec<Vec<f64>> = motions.into_iter().map(|motion| motion.rows).collect();
         let mean =
             |rows: &[f64]| rows.iter().map(|r| r * r).sum::<f64>() / rows.len().max(1) as f64;
         let means: Vec<f64> = all.iter().map(|rows| mean(rows)).collect();
@@ -200,13 +232,21 @@ fn features([q, v, u]: [f64; 3], before: [f64; 3]) -> Vec<f64> {
     let across = [q * v, q * u, u * v, v.abs(), slow];
     let dry = [1.0, q, q * q, u, u * u, slow].map(|more| sign * more);
     let past = before.iter().flat_map(|v| [*v, way(*v)]);
-    own.into_iter().chain(across).chain(dry).chain(past).collect()
+    // What acts at one place alone, as a force or as friction.
+    let width = 2.0 / (PLACES - 1) as f64;
+    let place = |k: usize| (1.0 - (q + 1.0 - width * k as f64).abs() / width).max(0.0);
+    let places = (0..PLACES).flat_map(|k| [place(k), sign * place(k)]);
+    own.into_iter().chain(across).chain(dry).chain(past).chain(places).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::made;
-    use identify::{effects::Kind, fit::Data};
+    use identify::{
+        Hold,
+        effects::Kind,
+        fit::{Data, Seen},
+    };
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
@@ -244,6 +284,37 @@ mod tests {
         // What hangs together as long as a window is no noise.
         let (mostly, left) = leaves(0.99, &right);
         assert!(mostly < 1.2 || left >= mostly, "{left} of {mostly}");
+    }
+
+    #[test]
+    fn a_sensor_of_force_may_have_noise_that_is_not_white() {
+        // A sine of 20 mm against 1.5 N, of whose noise this share lasts from sample to sample; and three times it more at one place.
+        let record = |lasts: f64, more: f64| {
+            let mut random = ChaCha8Rng::seed_from_u64(4);
+            let mut off = 0.0;
+            let time: Vec<f64> = (0..8000).map(|i| 0.005 * f64::from(i)).collect();
+            let force = time.iter().map(|t| {
+                let drawn: f64 = StandardNormal.sample(&mut random);
+                off = lasts * off + 1e-2 * (1.0 - lasts * lasts).sqrt() * drawn;
+                let place = (((1.3 * t).sin() - 0.3) / 0.2).powi(2);
+                1.5 * (1.3 * t).cos().signum() + more * 1e-2 * (-place).exp() + off
+            });
+            let seen = Seen::new("force", force.collect(), 0.0);
+            let input = time.iter().map(|t| 0.02 * (1.3 * t).sin()).collect();
+            let driven = Data::driven(time, input, Hold::Linear, seen.clone());
+            Data { displacement: None, force: Some(seen), ..driven }
+        };
+        let leaves = |data: &Data| {
+            let walk = made::walk(&made::slides(1.5), data, &[]);
+            (walk.judged(&walk.best.blocks).mostly(), walk.leaves(&walk.best))
+        };
+        let (mostly, left) = leaves(&record(0.7, 0.0));
+        assert!(mostly > 3.0 && left <= 1.0, "{mostly} are noise, and {left} is left");
+        let (mostly, left) = leaves(&record(0.7, 3.0));
+        assert!(left >= mostly, "{left} of {mostly}, with a force at one place");
+        // What lasts as long as a rest is no noise.
+        let (mostly, left) = leaves(&record(0.97, 0.0));
+        assert!(left >= mostly, "{left} of {mostly}");
     }
 
     #[test]
