@@ -85,6 +85,10 @@ fn lugre_without_a_stribeck_effect_gets_none_when_only_f_c_moves() {
     let mut both = rig(&none.replace("free = [", "free = [\"f_s\", "));
     both.set("f_c", 0.7).expect("f_c");
     assert_eq!(both.value("f_s"), Some(0.6), "f_s [N·m] that is free itself stays");
+    // However it was rounded when the file was written; a real one is further off.
+    let rounded = rig(&none.replace("f_s     = 0.6", "f_s     = 0.6000012"));
+    assert!(rounded.tied() && rounded.value("f_s") == Some(0.6));
+    assert!(!rig(&none.replace("f_s     = 0.6", "f_s     = 0.6006")).tied());
 }
 
 #[test]

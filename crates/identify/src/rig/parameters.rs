@@ -4,6 +4,9 @@ use super::{Kind, Range, Rig, RigError};
 use crate::effects::Kind as Effects;
 use duhem::{MODELS, Parameter, Parameters};
 
+/// Two values whose ratio is nearer to one are one that was written with six digits.
+const WRITTEN: f64 = 1e-5;
+
 /// Where a parameter is kept.
 enum Home<'a> {
     Plant(&'a str),
@@ -98,6 +101,15 @@ impl Rig {
     pub fn tied(&self) -> bool {
         let f_s = self.value("f_s");
         f_s.is_some() && f_s == self.value("f_c") && !self.free.iter().any(|name| name == "f_s")
+    }
+
+    /// A stiction that differs from the sliding friction by less than how they were written is that.
+    pub(super) fn tie(&mut self) {
+        if let (Some(f_s), Some(f_c)) = (self.value("f_s"), self.value("f_c"))
+            && (f_s - f_c).abs() < WRITTEN * f_c
+        {
+            self.place("f_s", f_c);
+        }
     }
 
     /// The SI unit of a parameter; empty for a pure number and for a name that is not known.

@@ -53,6 +53,7 @@ impl Rig {
         if let Some(fit) = file.table("fit", "[fit]")? {
             rig.free = free(&fit, &rig)?;
         }
+        rig.tie();
         Ok(rig)
     }
 }
