@@ -2,7 +2,7 @@
 
 mod imposed;
 
-pub(crate) use imposed::{imposed, noise_of_displacement, timed, turns_at_once};
+pub(crate) use imposed::{imposed, timed, turns_at_once};
 
 use crate::board::{Board, Fitted};
 use identify::{

@@ -6,7 +6,10 @@ use std::ops::Range;
 
 /// What lies within so many standard deviations of the noise, over at least so many samples, may be at rest.
 const WITHIN: f64 = 7.0;
-pub(crate) const LEAST: usize = 10;
+const LEAST: usize = 10;
+
+/// So many samples that move tell their noise.
+const LITTLE: usize = 64;
 
 /// A slope of so many standard errors is a motion.
 const MOVING: f64 = 4.0;
@@ -31,11 +34,11 @@ pub(crate) fn still(data: &Data) -> Data {
     Data { input, band, ..rested }
 }
 
-/// An imposed motion as its band has it or, where it has none, laid smooth; at rest where it is for longer than a wave of that band
-/// turns.
+/// An imposed motion as its band has it or, where it has none, laid smooth; at rest where it is so for longer than two waves of that
+/// band.
 fn imposed(data: &Data) -> Data {
     let rested = rested(data);
-    let noise = crate::floor::noise_of_displacement(&rested.input);
+    let noise = noise_of_displacement(&rested.input);
     let mut otherwise = crate::input::smoothed(&data.input, noise);
     let mut rests: Vec<Range<usize>> = Vec::new();
     let mut first = 0;
@@ -63,6 +66,13 @@ fn imposed(data: &Data) -> Data {
         }
     }
     Data { input, averaged: Some(noise), band, ..rested }
+}
+
+/// Standard deviation of the noise of an imposed displacement `u` [m], of what moves of it: where it rests it is its mean.
+pub(crate) fn noise_of_displacement(u: &[f64]) -> f64 {
+    let moving = u.chunk_by(|a, b| a == b).filter(|run| run.len() < LEAST);
+    let moving: Vec<f64> = moving.flatten().copied().collect();
+    identify::doctor::noise(if moving.len() > LITTLE { &moving } else { u })
 }
 
 /// `data` with the imposed displacement, or the input, replaced by its mean wherever it rests.

@@ -23,9 +23,6 @@ const TIMES: u64 = 16;
 /// How many samples to either side tell of one sample's spread.
 const AROUND: usize = 1;
 
-/// So many samples that move tell their noise.
-const LITTLE: usize = 64;
-
 /// By how much the force at every sample spreads [N], and what makes the rest independent.
 type Floor = (Vec<f64>, Option<Arc<Whitening>>);
 
@@ -37,7 +34,7 @@ pub(crate) fn imposed(board: &Board<'_>, fitted: &Fitted, seed: u64) -> Result<F
     let rig = fitted.held();
     let problem = board.problem(&rig, |_| true)?;
     let turns = turns_at_once(&problem.model(&[]));
-    let shown = || noise_of_displacement(&board.data.input);
+    let shown = || crate::rest::noise_of_displacement(&board.data.input);
     let Some(shaken) = problem.shaken(&[], board.data.averaged.unwrap_or_else(shown)) else {
         return Ok((timed(board.data, turns, Vec::new()), None));
     };
@@ -60,13 +57,6 @@ pub(crate) fn imposed(board: &Board<'_>, fitted: &Fitted, seed: u64) -> Result<F
     let weighed = Problem { spread: &spread, ..problem };
     let whitening = shaken.whitening(&weighed).map(Arc::new);
     Ok((spread, whitening))
-}
-
-/// Standard deviation of the noise of an imposed displacement `u` [m], of what moves of it: where it rests it is its mean.
-pub(crate) fn noise_of_displacement(u: &[f64]) -> f64 {
-    let moving = u.chunk_by(|a, b| a == b).filter(|run| run.len() < crate::rest::LEAST);
-    let moving: Vec<f64> = moving.flatten().copied().collect();
-    identify::doctor::noise(if moving.len() > LITTLE { &moving } else { u })
 }
 
 /// By what one draw of the displacement's noise moves the force of every sample, less what it does to first order [N].

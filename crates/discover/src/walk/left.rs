@@ -173,16 +173,17 @@ impl Walk<'_> {
         let (board, data) = (&self.board, self.board.data);
         let own = |window: usize| {
             let Window { first, end, .. } = board.windows[window];
-            let piece = fitted.pieces.get(if board.imposed() { 0 } else { window })?;
-            let (skip, n) = if board.imposed() { (first, end - first) } else { (0, end - first) };
-            let rows = piece.residuals.iter().skip(channel).step_by(of).skip(skip).take(n);
-            let rows: Vec<f64> = rows.copied().collect();
-            let input = &data.input[first..end];
-            let Piece { motion, .. } = piece;
-            let (q, v, drives) = if board.imposed() {
-                (input, speeds(data, first..end), motion.q.get(first..end)?)
+            // An imposed motion is one piece, and its q is the force.
+            let imposed = board.imposed();
+            let (piece, from) = if imposed { (0, first) } else { (window, 0) };
+            let (Piece { motion, residuals, .. }, n) = (fitted.pieces.get(piece)?, end - first);
+            let rows: Vec<f64> =
+                residuals.iter().skip(channel).step_by(of).skip(from).take(n).copied().collect();
+            let (input, own) = (&data.input[first..end], motion.q.get(from..from + n)?);
+            let (q, v, drives) = if imposed {
+                (input, speeds(data, first..end), own)
             } else {
-                (motion.q.get(..n)?, motion.v.get(..n)?.to_vec(), input)
+                (own, motion.v.get(..n)?.to_vec(), input)
             };
             (rows.len() == n).then_some(Motion { window, rows, q, v, drives })
         };
