@@ -173,6 +173,20 @@ fn a_record_in_which_nothing_moves_is_refused() {
 }
 
 #[test]
+fn an_imposed_motion_that_is_none_is_refused() {
+    let rig = "title = \"a slide\"\n[plant]\nkind = \"prescribed\"\n[friction]\nname = \"coulomb\"\nf_c = 1.0\n\
+        [fit]\nfree = [\"f_c\"]\n[channels]\ntime = \"t\"\ndisplacement = \"x\"\nforce = \"F\"\n";
+    let still = (0..400).fold("t,F,x\n".to_owned(), |mut text, i| {
+        let _ = writeln!(text, "{},{},1", f64::from(i) * 0.01, f64::from(i).sin());
+        text
+    });
+    let bench = Bench::new("record.csv", still.as_bytes(), rig.as_bytes());
+    bench.refused(("record.csv", "rig.toml"), 1, &["record.csv"]);
+    let said = bench.run(&["discover"], "record.csv", "rig.toml").err;
+    assert!(said.contains("channel displacement is the same from the first"), "{said}");
+}
+
+#[test]
 fn what_is_no_file_is_refused_at_once() {
     let bench = Bench::new("record.csv", record(400).as_bytes(), RIG.as_bytes());
     let pipes = tempfile::tempdir().expect("a folder");

@@ -289,6 +289,10 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     if let Some(still) = seen.find(|seen| seen.span <= 0.0) {
         return Err(FitError::Still { channel: still.name.clone() });
     }
+    let imposed = data.force.is_some();
+    if imposed && data.input.iter().all(|u| *u == data.input[0]) {
+        return Err(FitError::Still { channel: "displacement".to_owned() });
+    }
     let noise = |seen: Option<&Seen>| seen.map_or(1.0, |s| s.noise.max(f64::MIN_POSITIVE));
     let weights = Weights {
         displacement: noise(data.displacement.as_ref()),
@@ -302,7 +306,6 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
     let windows = blocks::whole(data);
     let (free, shares) = (Vec::new(), Vec::new());
     let memory = binding::model::<f64>(rig, &|_| None).contact.memory();
-    let imposed = data.force.is_some();
     let course = if imposed { Course::of(&data.time, &data.input) } else { Course::default() };
     Ok(Problem {
         rig,
