@@ -27,10 +27,6 @@ const IN_EACH: f64 = 5.5;
 const STRETCH: usize = 32;
 const KNOWN: f64 = 0.03;
 
-/// What the widest band leaves tells the noise better than differences do, which are off by less than so much of it: else it is
-/// no noise alone.
-const NEAR: f64 = 0.1;
-
 /// A band ends sharply if so many times the noise is beyond the last filter, or beyond that and within one twice as long. One
 /// filter more than the noise asks for is spared; of a band that ends slowly, as that of a triangle with its corners, so many, each
 /// of which lets a quarter as much of its end or less be.
@@ -50,13 +46,12 @@ pub(crate) fn banded(u: &[f64], noise: f64, otherwise: Vec<f64>) -> (Vec<f64>, O
     cut(narrowest(u, noise, None), otherwise)
 }
 
-/// The same by filters that do less to it than its noise, however quiet that is, which is told by what the widest band leaves. It is
+/// The same by filters that do less to it than its noise, however quiet that is. It is
 /// for imposed motions: with the narrower bands of driven inputs one record of 60 had a name though nothing is hidden in it.
 pub(crate) fn finely(u: &[f64], noise: f64, otherwise: Vec<f64>) -> (Vec<f64>, Option<Band>) {
     if noise <= 0.0 {
         return (otherwise, None);
     }
-    let noise = told(u, noise);
     cut(narrowest(u, noise, Some(decibels(u, noise))), otherwise)
 }
 
@@ -101,7 +96,7 @@ impl Passed {
 }
 
 /// What the filter of the narrowest band that is surely whole makes of `u`; none if no band is narrow. A filter that is `fine` stops
-/// by so many decibels, and its band does not end by chance.
+/// by so many decibels, and its band ends where twice as much is left as chance leaves: the noise may be told a little too low.
 fn narrowest(u: &[f64], noise: f64, fine: Option<f64>) -> Option<Passed> {
     let all = Passed { filter: Filter::all(), values: u.to_vec(), inside: vec![true; u.len()] };
     let of = |half: usize| Filter::of(half, fine.unwrap_or(0.0));
@@ -111,15 +106,9 @@ fn narrowest(u: &[f64], noise: f64, fine: Option<f64>) -> Option<Passed> {
         let many = next.inside.iter().filter(|inside| **inside).count() as f64;
         let last = &passed[passed.len() - 1];
         let [left, most] = last.left((&next.filter, &next.values), &next.inside, noise);
-        // By less than twice that it may be chance, if there is no more between this one and the next: a band's end has more there.
-        let goes_on = || {
-            let further = Passed::of(of(half + half / 2), u, noise);
-            let [left, most] =
-                next.left((&further.filter, &further.values), &further.inside, noise);
-            left > most
-        };
-        let surely = fine.is_none() || left - 1.0 > 2.0 * (most - 1.0);
-        let ends = left > most && (surely || goes_on());
+        // A filter that stops all that noise hides need not be spared what a band that ends slowly has there.
+        let chance = if fine.is_none() { 1.0 } else { 2.0 };
+        let ends = left - 1.0 > chance * (most - 1.0);
         if many <= (1.0 - OUTSIDE) * u.len() as f64 || ends {
             // A band that ends slowly has some of its end beside it, hidden in the noise.
             let whole = vec![true; u.len()];
@@ -141,17 +130,6 @@ fn narrowest(u: &[f64], noise: f64, fine: Option<f64>) -> Option<Passed> {
 fn decibels(u: &[f64], noise: f64) -> f64 {
     let largest = u.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
     20.0 * (largest / noise).log10() + BELOW
-}
-
-/// The noise by what the widest band leaves, where that is about as much as this `noise`.
-fn told(u: &[f64], noise: f64) -> f64 {
-    let widest = Filter::of(LENGTHS[0], decibels(u, noise));
-    let (margin, share) = (widest.half(), Filter::all().beside(&widest));
-    let all = margin..u.len().saturating_sub(margin);
-    let n = all.len() as f64;
-    let squares: f64 = all.map(|i| (u[i] - widest.at(u, i)).powi(2)).sum();
-    let own = (squares / n / share).sqrt();
-    if (own / noise - 1.0).abs() < NEAR { own } else { noise }
 }
 
 /// A low-pass filter.
@@ -293,6 +271,9 @@ mod tests {
             let left = off(&inside(&found), &inside(&clean)) / NOISE;
             let share = (band.edge / std::f64::consts::PI).sqrt();
             assert!(left < 1.3 * share && share < 0.25, "{left} of the noise for {share}");
+            // By a noise that is told too low, as differences may, too.
+            let low = finely(&seen, 0.97 * NOISE, seen.clone()).1.expect("it still has one");
+            assert!(low.edge < 1.5 * band.edge, "{} for {}", low.edge, band.edge);
         }
     }
 

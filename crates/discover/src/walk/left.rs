@@ -289,7 +289,7 @@ mod tests {
 
     #[test]
     fn a_sensor_of_force_may_have_noise_that_is_not_white() {
-        // A sine of 20 mm against 1.5 N, of whose noise this share lasts from sample to sample; and three times it more at one place.
+        // A sine of 20 mm against 1.5 N, of whose noise this share lasts from sample to sample; and six times it more at one place, to and fro.
         let record = |lasts: f64, more: f64| {
             let mut random = ChaCha8Rng::seed_from_u64(4);
             let mut off = 0.0;
@@ -297,8 +297,9 @@ mod tests {
             let force = time.iter().map(|t| {
                 let drawn: f64 = StandardNormal.sample(&mut random);
                 off = lasts * off + 1e-2 * (1.0 - lasts * lasts).sqrt() * drawn;
-                let place = (((1.3 * t).sin() - 0.3) / 0.2).powi(2);
-                1.5 * (1.3 * t).cos().signum() + more * 1e-2 * (-place).exp() + off
+                let place = ((1.3 * t).sin() - 0.3) / 0.12;
+                let acts = more * 1e-2 * place * (-place * place).exp();
+                1.5 * (1.3 * t).cos().signum() + acts + off
             });
             let seen = Seen::new("force", force.collect(), 0.0);
             let input = time.iter().map(|t| 0.02 * (1.3 * t).sin()).collect();
@@ -311,7 +312,7 @@ mod tests {
         };
         let (mostly, left) = leaves(&record(0.7, 0.0));
         assert!(mostly > 3.0 && left <= 1.0, "{mostly} are noise, and {left} is left");
-        let (mostly, left) = leaves(&record(0.7, 3.0));
+        let (mostly, left) = leaves(&record(0.7, 6.0));
         assert!(left >= mostly, "{left} of {mostly}, with a force at one place");
         // What lasts as long as a rest is no noise.
         let (mostly, left) = leaves(&record(0.97, 0.0));
