@@ -37,7 +37,7 @@ pub struct Confirmed {
 /// # Errors
 /// A record too short or still, and a `model` that has no motion on it.
 pub fn confirm(nominal: &Rig, model: &Rig, data: &Data) -> Result<Confirmed, FitError> {
-    let data = &crate::rest::still(data);
+    let data = &identify::known::still(data);
     let (before, after) =
         rayon::join(|| simulate(nominal, data, None), || simulate(model, data, None));
     let before = match before {

@@ -2,7 +2,7 @@
 
 mod imposed;
 
-pub(crate) use imposed::{imposed, timed, turns_at_once};
+pub(crate) use imposed::imposed;
 
 use crate::board::{Board, Fitted};
 use identify::{
@@ -135,6 +135,11 @@ fn by_middle(mut values: Vec<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{Seen, noise};
+    use crate::{board::Board, walk::made};
+    use identify::{
+        Hold, Rig,
+        fit::{Data, search::Patience},
+    };
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
@@ -167,5 +172,45 @@ mod tests {
         let found = noise(&Seen::new("position", values, 1.0), median);
         let truth = 0.2_f64.hypot(1.0 / 12f64.sqrt());
         assert!((found / truth - 1.0).abs() < 0.1, "{found}, in truth {truth}");
+    }
+
+    #[test]
+    fn a_mass_is_not_heavier_for_the_noise_of_its_input() {
+        // 50 g on 3 N/m with 0.5 N·s/m under a force that is recorded with 0.4 N of noise: a heavier mass lets less of it through.
+        let mut random = ChaCha8Rng::seed_from_u64(12);
+        let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
+        let time: Vec<f64> = (0..8000).map(|i| 0.005 * f64::from(i)).collect();
+        let tones = [(0.5, 2.0), (0.1, 14.0)];
+        let force = |t: f64, (x, w): (f64, f64)| {
+            let (s, c) = f64::sin_cos(w * t);
+            x * ((3.0 - 0.05 * w * w) * s + 0.5 * w * c)
+        };
+        let force = |t: f64| tones.iter().map(|tone| force(t, *tone)).sum::<f64>();
+        let input = time.iter().map(|t| force(*t) + 0.4 * noise()).collect();
+        let way = |t: f64| tones.iter().map(|(x, w)| x * (w * t).sin()).sum::<f64>();
+        let seen = time.iter().map(|t| way(*t) + 1e-3 * noise()).collect();
+        let as_recorded = Data::driven(time, input, Hold::Smooth, Seen::new("position", seen, 0.0));
+        let rig = Rig { free: vec!["mass".into(), "sigma_2".into()], ..made::rig(0.05) };
+        let off = |data: &Data| {
+            let mut board = Board::of(&rig, data, 1, Vec::new()).unwrap();
+            let mut fitted = board.judged(&rig, None).unwrap();
+            for _ in 0..3 {
+                board.refloor(&fitted, 0).unwrap();
+                let from = (fitted.x.clone(), fitted.pieces.clone());
+                fitted = board
+                    .fit(
+                        &fitted.rig,
+                        Some((&from.0, &from.1)),
+                        &Patience { misfit: 0.05, share: 1e-6, simulations: 20 },
+                    )
+                    .unwrap();
+            }
+            let level = board.trained_level(&fitted);
+            (fitted.rig.value("mass").unwrap() / 0.05 - 1.0, level)
+        };
+        let (heavier, _) = off(&Data { averaged: Some(0.4), ..as_recorded.clone() });
+        let (mass, level) = off(&identify::known::still(&as_recorded));
+        assert!(heavier > 0.02 && mass.abs() < 0.01, "{mass} off, {heavier} as recorded");
+        assert!((level - 1.0).abs() < 0.06, "{level} floors");
     }
 }

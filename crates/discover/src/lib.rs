@@ -9,23 +9,18 @@
 //!
 //! Read first: [`discover`], the whole way; [`Discovery`], its answer.
 
-mod band;
 mod board;
-mod chatter;
 mod confirm;
 mod decide;
 mod floor;
 mod gram;
-mod input;
 mod maps;
 mod model;
 mod nudge;
-mod rest;
 mod screen;
 mod verdict;
 mod walk;
 mod wind;
-
 mod wrong;
 
 pub use confirm::{Confirmed, confirm};

@@ -1,13 +1,14 @@
 //! The force that a model lacks, over time, with its floor.
 
-use crate::{
-    floor::{timed, turns_at_once},
-    rest::rested,
-};
 use identify::{
     Rig,
     effects::Channel,
-    fit::{Data, binding, simulate},
+    fit::{
+        Data, binding,
+        floor::{timed, turns_at_once},
+        simulate,
+    },
+    known::rested,
     march::{Drive, Measured, Model, observe},
     regression::filter::{LowPass, differences},
 };

@@ -139,7 +139,7 @@ fn fitted(rig: &Rig, data: &Data) -> (Found, Vec<f64>) {
         shares: Vec::new(),
         priors: Vec::new(),
         weights,
-        spread: &[],
+        spread: std::borrow::Cow::default(),
         tolerance: TOLERANCE,
         course: Arc::default(),
         slopes: 0.0,

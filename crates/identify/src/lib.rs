@@ -10,6 +10,7 @@ pub mod doctor;
 pub mod effects;
 pub mod export;
 pub mod fit;
+pub mod known;
 pub mod march;
 mod recording;
 pub mod regression;

@@ -30,7 +30,7 @@ use identify::{
 };
 use loose::{DRIVES, LOOSE, prestress};
 use noises::noises;
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
 /// The record on its blocks.
 #[derive(Debug, Clone)]
@@ -214,7 +214,7 @@ impl<'a> Board<'a> {
         };
         let priors: Vec<(String, f64, f64)> =
             held.map(|(name, given)| (name.clone(), *given, spread(name, *given))).collect();
-        let spread = self.spread.as_slice();
+        let spread = Cow::Borrowed(self.spread.as_slice());
         let base = Problem {
             weights: self.weights,
             spread,
@@ -314,7 +314,8 @@ impl<'a> Board<'a> {
     /// Counts the noise of the input anew, on its way through this model.
     pub(crate) fn refloor(&mut self, fitted: &Fitted, seed: u64) -> Result<(), FitError> {
         if self.imposed() {
-            (self.spread, self.whitening) = crate::floor::imposed(self, fitted, seed)?;
+            let floor = crate::floor::imposed(self, fitted, seed)?;
+            (self.spread, self.whitening) = (floor.spread, floor.whitening);
             return Ok(());
         }
         let all = crate::floor::whitened(self, fitted)?;

@@ -122,7 +122,7 @@ fn walked(
     others: &[Data],
     options: &Options,
 ) -> Result<End, FitError> {
-    let data = &crate::rest::still(data);
+    let data = &identify::known::still(data);
     let Begin { rig, loose, board, refit, origin, strayed } =
         begin((given, loose), data, options.seed)?;
     let rig = &rig;

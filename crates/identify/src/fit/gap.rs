@@ -40,6 +40,16 @@ pub struct Trace {
 
 /// The misfit of every channel of the problem, before and after.
 pub(super) fn gap(problem: &Problem<'_>, before: &Found, after: &Found) -> Vec<Misfit> {
+    if !problem.spread.is_empty() || problem.windows.iter().any(|w| w.whitening.is_some()) {
+        // What was made white is not in the channel's unit.
+        let plain = problem.plain();
+        let [before, after] = [before, after].map(|found| {
+            let all = plain.windows.iter().zip(&found.pieces);
+            let pieces = all.map(|(w, piece)| plain.piece(&found.x, w, piece.start)).collect();
+            Found { pieces, ..found.clone() }
+        });
+        return gap(&plain, &before, &after);
+    }
     let data = problem.data;
     let seen = [&data.displacement, &data.velocity, &data.force];
     residuals(problem, before)
@@ -127,8 +137,9 @@ fn follows(piece: &Piece) -> bool {
 }
 
 /// Runs the model of `rig` on the inputs of `data`: in closed loop where the controller is declared, in windows
-/// of a `window` [s] if one is given, in one run otherwise.
+/// of a `window` [s] if one is given, in one run otherwise; an imposed motion without what is known to be its sensor's noise.
 pub fn simulate(rig: &Rig, data: &Data, window: Option<f64>) -> Result<Simulated, FitError> {
+    let data = &*crate::known::motion(data);
     let mut problem = super::unfree(rig, data)?;
     let way = match window {
         _ if data.force.is_some() => Way::Imposed,

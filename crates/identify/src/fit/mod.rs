@@ -13,6 +13,7 @@ pub mod data;
 pub mod descent;
 mod displacement;
 mod estimate;
+pub mod floor;
 mod follow;
 mod gap;
 pub mod hold;
@@ -39,13 +40,13 @@ pub use estimate::Estimate;
 pub use gap::{Misfit, Simulated, Trace, moves, simulate};
 pub use models::{Candidate, candidates};
 
-use crate::Rig;
+use crate::{Rig, known};
 use estimate::{correlation, estimates};
 use gap::{gap, traces};
 use interval::{Interval, Spread};
 use problem::{Problem, Weights};
 use search::{End, Found, TO_THE_END};
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 use way::best_way;
 
 /// What the fit is asked for.
@@ -161,6 +162,8 @@ const FINER: usize = 3;
 
 /// Fits what is free in `rig` to `data`.
 pub fn fit(rig: &Rig, data: &Data, options: &Options) -> Result<Fit, FitError> {
+    // The noise of a displacement that is imposed shakes the simulated bristle, which then seems weaker than it is.
+    let data = &*known::motion(data);
     let problem = problem(rig, data)?;
     let (problem, found, way) = best_way(problem, options)?;
     let before = start_misfit(&problem);
@@ -318,7 +321,7 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
         shares,
         priors: Vec::new(),
         weights,
-        spread: &[],
+        spread: Cow::default(),
         tolerance: tolerance(data),
         course: Arc::new(course),
         slopes: 0.0,

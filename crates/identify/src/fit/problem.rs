@@ -48,7 +48,7 @@ pub struct Problem<'a> {
     pub weights: Weights,
     /// By how much more than by its noise a sample of the displacement, or of the force, may be off [its unit]; none if
     /// empty.
-    pub spread: &'a [f64],
+    pub spread: Cow<'a, [f64]>,
     /// The steps' tolerance, of the spans of displacement and velocity [1].
     pub tolerance: f64,
     /// The course of the whole record if its motion is imposed; else empty.

@@ -4,7 +4,7 @@ use super::{
     FitError, Options, Way, blocks,
     gap::{residuals, weights_of},
     newton,
-    problem::Problem,
+    problem::{Problem, Weights},
     search::{self, End, Found, Patience, TO_THE_END},
     starts,
 };
@@ -36,8 +36,14 @@ pub(super) fn best_way<'a>(
         None
     };
     if let Some(way) = one {
-        let (problem, found) = weighed(whole, options, None)?;
-        return Ok((problem, found, way));
+        let noise = whole.weights;
+        let mut fitted = weighed(whole, options, None)?;
+        if way == Way::Imposed {
+            for _ in 0..FLOORED {
+                fitted = floored(fitted, noise, options.seed);
+            }
+        }
+        return Ok((fitted.0, fitted.1, way));
     }
     let windows = Problem { windows: blocks::blocks(data, options.window), ..whole.clone() };
     if options.window.is_some() {
@@ -65,6 +71,26 @@ pub(super) fn best_way<'a>(
     // The weights were those of the worse minimum.
     let (problem, found) = reweighed(windows, again);
     Ok((problem, found, Way::Windows))
+}
+
+/// So often what the noise of an imposed displacement leaves is counted anew, on its way through the model that was found.
+const FLOORED: usize = 2;
+
+/// The minimum of an imposed motion's problem beside what the noise of its displacement leaves, the force weighed by its
+/// own `noise`.
+fn floored(
+    (problem, found): (Problem<'_>, Found),
+    noise: Weights,
+    seed: u64,
+) -> (Problem<'_>, Found) {
+    let problem = Problem { weights: noise, ..problem }.floored(&found.x, &found.pieces[0], seed);
+    let from = (found.x.as_slice(), Some(found.pieces.as_slice()));
+    let mut again = search::search(&problem, from, None, &TO_THE_END);
+    for (total, before) in again.simulations.iter_mut().zip(found.simulations) {
+        *total += before;
+    }
+    let found = newton::settle(&problem, again, None);
+    (problem, found)
 }
 
 /// The mean squared weighed residual [1].

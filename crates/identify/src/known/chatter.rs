@@ -3,7 +3,7 @@
 //! A digital controller answers each step of its encoder, and its command trembles with them. The motor gets that command all
 //! the same: it is no noise of the record, though from the input alone it looks like some.
 
-use identify::{doctor, fit::Data};
+use crate::{doctor, fit::Data};
 use nalgebra::{DMatrix, DVector};
 
 /// A command may hang on so many last samples of each measured channel.
@@ -24,7 +24,7 @@ const FITS: usize = 3;
 
 /// Standard deviation of the noise of the recorded input [its unit]: what is left of its differences beside those of the
 /// displacement and the velocity as they were measured, and as a controller would have had them.
-pub(crate) fn noise_of_input(data: &Data) -> f64 {
+pub fn noise_of_input(data: &Data) -> f64 {
     let alone = data.noise_of_input();
     if data.averaged.is_some() {
         return alone;
@@ -82,7 +82,7 @@ fn differences(values: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::noise_of_input;
-    use identify::{
+    use crate::{
         Hold,
         fit::{Data, Seen},
     };

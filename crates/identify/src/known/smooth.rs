@@ -19,7 +19,7 @@ const SURE: f64 = 2.0;
 const SAME: f64 = 2.0;
 
 /// `u` with the value of the widest parabola around each sample that leaves no more than this `noise`.
-pub(crate) fn smoothed(u: &[f64], noise: f64) -> Vec<f64> {
+pub(super) fn smoothed(u: &[f64], noise: f64) -> Vec<f64> {
     let one = |i: usize| {
         // The values, and of how much of the noise's variance each is.
         let mut all: Vec<[f64; 2]> = vec![[u[i], 1.0]];
@@ -68,23 +68,23 @@ fn parabola(around: &[f64], noise: f64) -> Option<[f64; 2]> {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+pub(super) mod tests {
     use super::smoothed;
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
 
-    pub(crate) const NOISE: f64 = 0.02;
+    pub(in crate::known) const NOISE: f64 = 0.02;
 
     /// `clean` with noise.
-    pub(crate) fn noisy(clean: &[f64]) -> Vec<f64> {
+    pub(in crate::known) fn noisy(clean: &[f64]) -> Vec<f64> {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
         clean.iter().map(|u| u + NOISE * noise()).collect()
     }
 
     /// The root mean square of what two inputs differ by.
-    pub(crate) fn off(a: &[f64], b: &[f64]) -> f64 {
+    pub(in crate::known) fn off(a: &[f64], b: &[f64]) -> f64 {
         let squares: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
         (squares / a.len() as f64).sqrt()
     }

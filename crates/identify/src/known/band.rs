@@ -4,7 +4,7 @@
 //! hangs together as the filter says, whatever it is; what a parabola through the samples around leaves does not. An input that
 //! jumps has no band, but for one that does so once or twice.
 
-use identify::fit::data::Band;
+use crate::fit::data::Band;
 
 /// A band is told with filters of so many samples to either side, the shortest first: each passes 1/√2 times as wide a band as
 /// the one before.
@@ -42,13 +42,13 @@ const OUTSIDE: f64 = 0.3;
 /// `u` without what is above the narrowest band beside which no more is left than this `noise`, if it does not fill its own. Each
 /// value hangs on the same filter (Kaiser and Schafer, IEEE Transactions on Acoustics, Speech, and Signal Processing 28, 1980,
 /// 105–107), whatever its noise is; near the ends and where more than noise is left it is as it is `otherwise`.
-pub(crate) fn banded(u: &[f64], noise: f64, otherwise: Vec<f64>) -> (Vec<f64>, Option<Band>) {
+pub(super) fn banded(u: &[f64], noise: f64, otherwise: Vec<f64>) -> (Vec<f64>, Option<Band>) {
     cut(narrowest(u, noise, None), otherwise)
 }
 
 /// The same by filters that do less to it than its noise, however quiet that is. It is
 /// for imposed motions: with the narrower bands of driven inputs one record of 60 had a name though nothing is hidden in it.
-pub(crate) fn finely(u: &[f64], noise: f64, otherwise: Vec<f64>) -> (Vec<f64>, Option<Band>) {
+pub(super) fn finely(u: &[f64], noise: f64, otherwise: Vec<f64>) -> (Vec<f64>, Option<Band>) {
     if noise <= 0.0 {
         return (otherwise, None);
     }
@@ -225,11 +225,11 @@ fn bessel(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Band, Filter, banded, finely};
-    use crate::input::{
+    use super::super::smooth::{
         smoothed,
         tests::{NOISE, noisy, off},
     };
+    use super::{Band, Filter, banded, finely};
 
     /// By its band, if it has one.
     fn by_band(u: &[f64]) -> (Vec<f64>, Option<Band>) {
