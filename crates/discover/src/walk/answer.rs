@@ -33,6 +33,9 @@ pub(super) const NEARLY_ALL: f64 = 0.99;
 /// A nominal parameter that moves further was wrong: nominal values are a little off, always.
 pub(super) const WRONG: f64 = 0.08;
 
+/// It is worse for it by so many squared standard errors besides the two blocks that lose most, if not by as much in all.
+const RARELY: f64 = 2.0 * LEAST;
+
 impl Walk<'_> {
     /// What the search has come to with what was `found` last, in a line.
     pub(super) fn comes_to(&self, found: &[Found]) -> String {
@@ -144,7 +147,9 @@ impl Walk<'_> {
         rig.free.retain(|name| !self.board.holds(name));
         let worse = |rig: &Rig| -> Result<bool, FitError> {
             let near = self.board.fit_near(rig, &self.best.pieces, &FIRST)?;
-            Ok(surely_worse(&self.judged(&near.blocks), &self.judged(&self.best.blocks)))
+            let (near, best) = (self.judged(&near.blocks), self.judged(&self.best.blocks));
+            // A bristle's stiffness shows where the motion turns slowly: in a few blocks of a chirp.
+            Ok(surely_worse(&near, &best) || near.gained_besides(&best) > RARELY)
         };
         if !worse(&rig)? {
             return Ok(false);

@@ -128,7 +128,14 @@ mod tests {
         verdict::{Discovery, Moved, Options, Value, Verdict},
         walk::made,
     };
-    use identify::{Rig, effects::Kind, fit::binding};
+    use identify::{
+        Hold, Rig,
+        effects::Kind,
+        fit::{Data, Seen, binding},
+    };
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
 
     #[test]
     fn of_several_that_moved_along_a_valley_the_one_that_has_to_is_wrong() {
@@ -156,6 +163,43 @@ mod tests {
         assert_eq!(walk.one_wrong(&right).unwrap(), None);
         assert!((walk.best.rig.value("mass").unwrap() - 2.6).abs() < 1e-12);
         assert!(!several(&[]));
+    }
+
+    #[test]
+    fn a_value_that_shows_in_a_few_blocks_alone_is_wrong_too() {
+        // Of 2 kg on 3 N/m that move for a second in every five, to 0.1 mm and 0.1 mN.
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let mut noisy = |value: f64| -> f64 {
+            let drawn: f64 = StandardNormal.sample(&mut random);
+            value + 1e-4 * drawn
+        };
+        let way =
+            |t: f64| 0.2 * (-((t.rem_euclid(5.0) - 2.4) / 0.3).powi(2)).exp() * (9.0 * t).sin();
+        let force = |t: f64| {
+            let [before, here, after] = [t - 1e-4, t, t + 1e-4].map(way);
+            2.0 * (after - 2.0 * here + before) / 1e-8 + 0.5 * (after - before) / 2e-4 + 3.0 * here
+        };
+        let time: Vec<f64> = (0..8000).map(|i| 0.005 * f64::from(i)).collect();
+        let input = time.iter().map(|t| noisy(force(*t))).collect();
+        let seen = Seen::new("position", time.iter().map(|t| noisy(way(*t))).collect(), 0.0);
+        let data = Data::driven(time, input, Hold::Linear, seen);
+        let rig = Rig { free: vec!["stiffness".to_owned()], ..made::rig(2.0) };
+        let walk = made::walk(&rig, &data, &[]);
+        for (given, far) in [(3.0, false), (2.0, true)] {
+            let found =
+                Value { name: "stiffness".to_owned(), value: 3.0, standard_error: 0.01, unit: "" };
+            let moved = Moved { given, found, moved: true };
+            let mut there = rig.clone();
+            binding::set(&mut there, "stiffness", given);
+            let [with, here] = [&there, &rig].map(|rig| {
+                let held = Rig { free: Vec::new(), ..rig.clone() };
+                walk.judged(&walk.board.judged(&held, None).unwrap().blocks)
+            });
+            // Many squared standard errors, and few blocks.
+            let (gained, t) = (with.gained_besides(&here), with.against(&here));
+            assert!(!far || gained > 1e3 && t < 3.0, "{gained}, t = {t}");
+            assert_eq!(walk.far(&[moved]).unwrap(), far, "from {given} N/m");
+        }
     }
 
     /// An answer with two wrong parameters that leaves so much.

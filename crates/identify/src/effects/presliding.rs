@@ -12,7 +12,7 @@ impl Law for Presliding {
         equation: "Coulomb friction becomes Dahl's, with sigma and gamma",
         channel: Channel::Torque,
         keys: &[Key::fitted("sigma", Measure::Stiffness), Key::fitted("gamma", Measure::One).usually(1.0)],
-        probes: |c| [1e4, 1e3, 100.0].iter().map(|s| vec![s * c.force / c.span, 1.0]).collect(),
+        probes: |c| [1e5, 1e4, 1e3, 100.0].iter().map(|s| vec![s * c.force / c.span, 1.0]).collect(),
         applies: |rig| (rig.friction.name == "coulomb" || rig.friction.name == "none") && value(rig, "f_c") > 0.0,
         confused: &["maxwell_slip", "backlash"],
         separated_by: "small reversals, smaller than the presliding distance",
