@@ -2,7 +2,7 @@
 
 use identify::{
     Hold, Rig,
-    fit::{Data, Fit, Options, Seen, fit},
+    fit::{Data, Fit, Options, Seen, fit, simulate},
 };
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -70,7 +70,15 @@ fn fitted(way: &dyn Fn(f64) -> f64, noise: f64) -> Fit {
     );
     let rig = Rig::parse(&rig).expect("a rig file");
     let options = Options { profiles: false, bootstrap: 0, models: false, ..Options::default() };
-    fit(&rig, &data, &options).expect("a fit")
+    let fit = fit(&rig, &data, &options).expect("a fit");
+    // The gap is what the traces differ by, in newtons, and what a simulation of the fitted rig says.
+    let (trace, gap) = (&fit.traces[0], fit.gap[0].after);
+    let off = trace.measured.iter().zip(&trace.after).map(|(m, s)| (m - s).powi(2));
+    let rms = (off.sum::<f64>() / samples as f64).sqrt();
+    assert!((rms / gap - 1.0).abs() < 1e-6, "{gap} N, by the traces {rms} N");
+    let again = simulate(&fit.rig, &data, None).expect("a motion").gap[0].after;
+    assert!((again / gap - 1.0).abs() < 0.01, "{gap} N, simulated {again} N");
+    fit
 }
 
 /// Every parameter within so many of its standard errors, which are less than this share of it.
