@@ -13,7 +13,8 @@ pub struct Recording {
     pub time: Vec<f64>,
     /// The channels by their names, without the time; each as long as `time`.
     pub channels: BTreeMap<String, Vec<f64>>,
-    /// The steps of encoders and converters, where the rig file says them, in SI units at the drum.
+    /// The steps of encoders and converters, as the rig file says them or else as the samples show them, in SI units at the
+    /// drum.
     pub quantum: BTreeMap<String, f64>,
 }
 
@@ -88,7 +89,10 @@ impl Recording {
             let factor = to_si(rig, quantity, channel);
             let values: Vec<f64> = column.iter().map(|v| v * factor).collect();
             check(&channel.column, column, &values)?;
-            if let Some(step) = stated_step(rig, channel, (factor, &values)) {
+            // What a file does not say the samples do: an encoder that rests shows no noise but has its steps.
+            let step = stated_step(rig, channel, (factor, &values))
+                .or_else(|| crate::doctor::quantum(&values));
+            if let Some(step) = step {
                 quantum.insert(quantity.name.to_owned(), step);
             }
             channels.insert(quantity.name.to_owned(), values);
@@ -185,4 +189,38 @@ fn shown(value: f64) -> String {
 /// Whether a sample is a number that can be meant.
 pub(crate) fn usable(value: f64) -> bool {
     value.abs() <= LARGEST
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Recording;
+    use crate::{Rig, fit::Data};
+
+    #[test]
+    fn an_encoder_that_rests_is_known_by_its_steps() {
+        // It rests for two thirds of the record, in which its samples differ by nothing at all.
+        let rig = "title = \"t\"\n[plant]\nkind = \"mass-spring\"\nmass = 1.0\nstiffness = 1.0\n[friction]\n\
+            name = \"none\"\n[channels]\ntime = \"t\"\nforce = \"f\"\nposition = \"x\"\n";
+        let rig = Rig::parse(rig).unwrap();
+        let step = 1.534e-3;
+        let way = |i: u32| f64::from(i.saturating_sub(200).min(100)) * 0.7e-3;
+        let time: Vec<f64> = (0..300).map(|i| 0.005 * f64::from(i)).collect();
+        let position = |i: u32| step * (way(i) / step).round();
+        let columns = |name: &str| -> Result<Vec<f64>, String> {
+            Ok(match name {
+                "t" => time.clone(),
+                "x" => (0..300).map(position).collect(),
+                _ => vec![0.0; 300],
+            })
+        };
+        let all = ["t", "x", "f"].map(|name| (name, columns(name).unwrap()));
+        let column = |name: &str| {
+            let found = all.iter().find(|(own, _)| *own == name);
+            found.map(|(_, values)| values.as_slice()).ok_or_else(|| name.to_owned())
+        };
+        let recording = Recording::new(&rig, &column).unwrap();
+        assert!((recording.quantum["position"] / step - 1.0).abs() < 1e-9);
+        let noise = Data::of(&rig, &recording).displacement.unwrap().noise;
+        assert!((noise / (step / 12f64.sqrt()) - 1.0).abs() < 1e-9, "{noise} m");
+    }
 }

@@ -134,6 +134,37 @@ fn friction_that_grows_takes_its_drop_along_or_leaves_it_as_it_is() {
 }
 
 #[test]
+fn a_load_is_what_drives_what_pulls_or_what_a_gear_carries_of_both() {
+    let (inertia, f_c, ratio, volts, k) = (0.01, 0.02, 0.3, 2.0, 0.4);
+    let (q, dt) = (0.3_f64, 1e-7);
+    for (form, motor) in (1..=9).map(|form| (form, 1.0)).chain([(7, 3.0), (7, 0.2)]) {
+        let rig = format!(
+            "title = \"t\"\n[plant]\nkind = \"pendulum\"\ninertia = {inertia}\nmass = 0.5\nlength = 0.1\n\
+             torque_constant = {k}\nresistance = 2.0\n[friction]\nname = \"coulomb\"\nf_c = {f_c}\n\
+             [channels]\ntime = \"t\"\nvoltage = \"u\"\nangle = \"q\"\n\
+             [[effect]]\nname = \"load_friction\"\nratio = {ratio}\nform = {form}\nmotor = {motor}\n"
+        );
+        let model = binding::model::<f64>(&Rig::parse(&rig).expect("a rig"), &|_| None);
+        for v in [0.5, -0.5] {
+            let drive = Drive::Recorded { values: &[volts; 2], first: 0, hold: Hold::ZeroOrder };
+            let start = Start { q, v, z: vec![0.0; model.states()], shown: None };
+            let tolerance = Tolerance { q: 1e-12, v: 1e-12, z: 1e-12, steps: 1000 };
+            let motion = march(&model, &drive, &[0.0, dt], &start, &tolerance).expect("a motion");
+            let (gives, pulls) = (k * volts / 2.0, 0.5 * 9.81 * 0.1 * q.sin());
+            let load = match form {
+                1 | 2 | 5 => gives,
+                3 | 4 | 6 => pulls,
+                _ => (motor * (gives - k * k * v / 2.0) + pulls) / (motor + 1.0),
+            };
+            let rubs = (f_c + ratio * load) * f64::signum(v);
+            let exact = (gives - k * k * v / 2.0 - pulls - rubs) / inertia;
+            let found = (motion.v[1] - v) / dt;
+            assert!((found / exact - 1.0).abs() < 1e-5, "{form}: {found} for {exact} rad/s²");
+        }
+    }
+}
+
+#[test]
 fn what_grows_as_a_whole_takes_viscous_friction_along() {
     let share = 0.4;
     let whole = [

@@ -3,6 +3,7 @@
 mod ahead;
 mod evidence;
 mod loose;
+mod mute;
 mod near;
 mod noises;
 mod race;
@@ -111,9 +112,11 @@ fn settled(data: &Data, about: usize, room: usize) -> usize {
     furthest(true).or_else(|| furthest(false)).unwrap_or(about)
 }
 
-/// The length of a block [s], and at least so many, however short the record.
+/// The length of a block [s], and at least so many, unless they get shorter than [`SHORTEST`]: where little is seen but the
+/// start of a window, which is free, a wrong model does as well as a right one.
 const BLOCK: f64 = 1.5;
 const LEAST: f64 = 32.0;
+const SHORTEST: f64 = 0.6;
 
 /// `rig` with the values of the variables `x`.
 fn with_values(rig: &Rig, problem: &Problem<'_>, x: &[f64]) -> Rig {
@@ -147,7 +150,8 @@ impl<'a> Board<'a> {
     ) -> Result<Self, FitError> {
         let weights = Problem::unfree(rig, data)?.weights;
         let duration = data.time[data.time.len() - 1] - data.time[0];
-        let blocks = blocks::blocks(data, Some(BLOCK.min(duration / LEAST)));
+        let length = BLOCK.min((duration / LEAST).max(SHORTEST));
+        let blocks = blocks::blocks(data, Some(length));
         let windows = windows(data, blocks.len() * per_block);
         let trains = (0..blocks.len()).map(|k| k.count_ones() % 2 == 0).collect();
         Ok(Self {
@@ -366,6 +370,7 @@ impl<'a> Board<'a> {
             for (i, r) in rows.iter().enumerate() {
                 sums[i % channels] += r * r;
             }
+            sums[0] += self.mute(k);
             if !loads.is_empty() {
                 for cell in 0..2 {
                     let from = cell * samples + window.first - first;

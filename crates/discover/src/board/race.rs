@@ -104,7 +104,7 @@ impl Board<'_> {
 fn far<'p>(pieces: impl Iterator<Item = &'p Piece>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for piece in pieces {
-        sum += piece.misfit().max(f64::MIN_POSITIVE).ln();
+        sum += piece.logarithm();
         count += 1.0;
     }
     sum / f64::max(count, 1.0)

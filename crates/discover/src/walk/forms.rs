@@ -1,6 +1,8 @@
 //! The nearest effect in its other forms, where the one in which it was looked for does not do.
 
-use super::{ABOVE, FIRST, Walk, answer::surely_worse, joints::AS_NEAR, loads::dragged};
+use super::{
+    ABOVE, FIRST, Walk, answer::surely_worse, geared::geared, joints::AS_NEAR, loads::dragged,
+};
 use crate::{board::Fitted, model::Candidate};
 use identify::{
     Rig,
@@ -45,10 +47,15 @@ impl Walk<'_> {
         let joint = joints.min_by(|a, b| level(a).total_cmp(&level(b)));
         let joint = joint.filter(|joint| level(joint) < NOT_FAR * least);
         let leading = self.leading(all, context);
-        let other =
-            leading.into_iter().filter_map(|c| self.best_form(c, &forms(c.kind, &c.fitted.rig)));
+        let other = leading.iter().filter_map(|c| self.best_form(c, &forms(c.kind, &c.fitted.rig)));
+        let geared =
+            leading.iter().filter_map(|c| self.best_of(c, &geared(c.kind, &c.fitted.rig, context)));
         let overtones = waves.filter_map(|wave| self.overtone(wave));
-        other.chain(overtones).chain(joint.and_then(|joint| self.loaded(joint, context))).collect()
+        other
+            .chain(geared)
+            .chain(overtones)
+            .chain(joint.and_then(|joint| self.loaded(joint, context)))
+            .collect()
     }
 
     /// A wave with its overtone; where that is the larger, with its own in turn.
@@ -103,7 +110,8 @@ impl Walk<'_> {
         };
         let other = |kind: &Kind| {
             let drags = dragged(*kind, &here.rig, context);
-            forms(*kind, &here.rig).into_iter().chain(drags)
+            let geared = geared(*kind, &here.rig, context);
+            forms(*kind, &here.rig).into_iter().chain(drags).chain(geared)
         };
         let others = LAWS.iter().filter(found_here).flat_map(other);
         let rigs: Vec<Rig> = others.collect();

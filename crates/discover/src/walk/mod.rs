@@ -12,6 +12,7 @@ mod drifts;
 mod exchange;
 mod fewest;
 mod forms;
+mod geared;
 mod given;
 mod grain;
 mod holds;
@@ -172,7 +173,9 @@ impl Walk<'_> {
     }
 
     fn scored(&self, scored: &Scored) -> Judged {
-        let blocks: Vec<Vec<f64>> = scored.left.iter().map(|sum| vec![*sum]).collect();
+        let mutes = self.board.mutes();
+        let blocks = scored.left.iter().zip(mutes).map(|(sum, mute)| vec![*sum + mute]);
+        let blocks: Vec<Vec<f64>> = blocks.collect();
         self.judged(&blocks)
     }
 

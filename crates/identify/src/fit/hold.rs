@@ -101,5 +101,5 @@ fn misfit(rig: &Rig, data: &Data, hold: Hold) -> Result<Vec<f64>, FitError> {
     let windows = problem.windows.iter().zip(&near.pieces).map(whitened).collect();
     let problem = Problem { windows, ..problem.clone() };
     let pieces = descend(&problem, (&near.x, Some(&near.pieces)), &PATIENCE).pieces;
-    Ok(pieces.iter().map(|piece| piece.misfit().max(f64::MIN_POSITIVE).ln()).collect())
+    Ok(pieces.iter().map(super::piece::Piece::logarithm).collect())
 }

@@ -40,7 +40,16 @@ impl Lead {
     }
 }
 
+/// A window leaves no less than so much of what noise does: where an encoder rests a model that does is right to the last
+/// digit, and its logarithm would decide over all other windows.
+const LITTLE: f64 = 0.1;
+
 impl Piece {
+    /// The logarithm of its misfit.
+    pub fn logarithm(&self) -> f64 {
+        self.misfit().max(LITTLE * self.residuals.len() as f64).ln()
+    }
+
     /// The sum of its squared residuals [1].
     pub fn misfit(&self) -> f64 {
         self.residuals.iter().map(|r| r * r).sum()
