@@ -147,6 +147,10 @@ const AT_ONCE: f64 = 0.08;
 /// Of what does not begin smoothly so much less than is tried is none.
 const TOO_LITTLE: f64 = 0.1;
 
+/// What gives way under the largest drive by more than so much of all the way is no gear: its load would go a way of its own,
+/// which is free in every window and takes up whatever else is missing.
+const GIVES: f64 = 0.3;
+
 /// What is less than this share of the mass is no load behind a joint.
 const LIGHTEST: f64 = 0.01;
 
@@ -180,6 +184,10 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
             // What it has come to by the record's end.
             (Shape::Amount, ..) if kind == Kind::FrictionDrift => {
                 (value * (1.0 - (-context.duration / wave[1]).exp())).abs() <= key.most
+            }
+            (Shape::Amount, Measure::Flexibility, _) => {
+                (least..=key.most * size).contains(&value)
+                    && value * context.drive <= GIVES * context.span
             }
             (Shape::Amount, ..) => (least..=key.most * size).contains(&value.abs()),
             // What does not repeat on the way is a constant force, or one that grows along it.
@@ -297,16 +305,18 @@ mod tests {
     }
 
     #[test]
-    fn what_weighs_nothing_is_no_load() {
-        let of = |ratio: f64| {
+    fn what_weighs_nothing_is_no_load_and_what_gives_way_as_far_as_it_goes_no_gear() {
+        let of = |compliance: f64, ratio: f64| {
             let effect = format!(
-                "name = \"compliance\"\ncompliance = 0.01\nratio = {ratio:?}\ndamping = 0.5\nrubs = 1e-3\n"
+                "name = \"compliance\"\ncompliance = {compliance:?}\nratio = {ratio:?}\ndamping = 0.5\nrubs = 1e-3\n"
             );
             let rig = RIG.replace("name = \"position_friction\"\n", &effect);
             let rig = Rig::parse(&rig).unwrap();
             plausible(&rig, Kind::Compliance, &CONTEXT, &[&rig])
         };
-        assert!(of(0.02) && !of(0.004));
+        assert!(of(0.01, 0.02) && !of(0.01, 0.004));
+        // By 1 N on a way of 0.5 m.
+        assert!(of(0.14, 0.2) && !of(0.16, 0.2));
     }
 
     #[test]
