@@ -11,7 +11,10 @@ const RECORDS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/hidden-effec
 
 /// Seeds of records that are not answered rightly yet: a list to be worked down. One that is fails the test until it
 /// is struck off.
-const NOT_YET: &[u64] = &[];
+///
+/// 2 hides a `quadratic_drag` of 21 standard errors, told by t = 2.15 on the 16 judging blocks that its 15 s had when none was too
+/// short; on the twelve of 0.6 s it is a wrong σ₂.
+const NOT_YET: &[u64] = &[2];
 
 #[test]
 fn what_is_hidden_in_the_committed_records_is_found() {
