@@ -170,6 +170,8 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
     let own = about.keys.iter().all(|key| {
         let value = value(key);
         let size = context.size(key.measure).max(driven.size(key.measure));
+        let gives = GIVES * context.span / context.drive;
+        let most = key.most * if key.measure == Measure::Flexibility { gives } else { size };
         let least = context.size(key.measure).min(driven.size(key.measure));
         let least = kind.tried().first().map_or(0.0, |tried| TOO_LITTLE * tried * least);
         let sign = match key.sign {
@@ -185,11 +187,7 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
             (Shape::Amount, ..) if kind == Kind::FrictionDrift => {
                 (value * (1.0 - (-context.duration / wave[1]).exp())).abs() <= key.most
             }
-            (Shape::Amount, Measure::Flexibility, _) => {
-                (least..=key.most * size).contains(&value)
-                    && value * context.drive <= GIVES * context.span
-            }
-            (Shape::Amount, ..) => (least..=key.most * size).contains(&value.abs()),
+            (Shape::Amount, ..) => (least..=most).contains(&value.abs()),
             // What does not repeat on the way is a constant force, or one that grows along it.
             (_, Measure::Wavenumber, _) if kind == Kind::Cogging => {
                 value * context.span > REPEATS * TAU
