@@ -215,7 +215,8 @@ fn say(what: &str) {
 }
 
 #[test]
-fn the_published_parameters_of_the_measured_drive_make_its_command_as_well_as_is_known() {
+fn the_command_of_the_measured_drive_is_as_far_off_as_is_known_and_nearer_with_what_the_published_model_lacks()
+ {
     let Some(folder) = emps() else { return };
     let project = Project::new(&[]);
     let rig =
@@ -234,5 +235,11 @@ fn the_published_parameters_of_the_measured_drive_make_its_command_as_well_as_is
     for (key, known) in [("command", 4.572), ("holdout_command", 5.444)] {
         let found = answer[key]["before"].as_f64().expect("a number");
         assert!((found - known).abs() < 0.01, "{key} {found} %, known {known} %");
+    }
+    // And it is nearer with what they lack, on the run of which nothing was fitted too: what the best model known leaves,
+    // and a little.
+    for (key, good) in [("command", 3.0), ("holdout_command", 4.2)] {
+        let found = answer[key]["after"].as_f64().expect("a number");
+        assert!(found < good, "{key} {found} % after, not under {good} %");
     }
 }

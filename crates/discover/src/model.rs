@@ -199,6 +199,7 @@ pub(crate) fn plausible(rig: &Rig, kind: Kind, context: &Context, others: &[&Rig
                 value >= LIGHTEST
             }
             (_, Measure::Speed, _) => value.abs() >= SLOWEST * context.speed,
+            (Shape::Fitted, Measure::One, _) => value <= key.most,
             _ => true,
         };
         sign && value.is_finite() && little
@@ -300,6 +301,17 @@ mod tests {
         };
         // Of 1 m/s.
         assert!(of(0.01) && of(1e-3) && !of(1e-4));
+    }
+
+    #[test]
+    fn a_contact_that_still_gives_way_where_it_has_slid_for_long_is_no_presliding() {
+        let of = |gamma: f64| {
+            let effect = format!("name = \"presliding\"\nsigma = 100.0\ngamma = {gamma:?}\n");
+            let rig = RIG.replace("name = \"position_friction\"\n", &effect);
+            let rig = Rig::parse(&rig).unwrap();
+            plausible(&rig, Kind::Presliding, &CONTEXT, &[&rig])
+        };
+        assert!(of(0.25) && of(2.0) && !of(4.64));
     }
 
     #[test]

@@ -145,6 +145,12 @@ impl Key {
         Self { usual: Some(value), ..self }
     }
 
+    /// The same, but with another largest plausible size, of its natural one.
+    #[must_use]
+    pub const fn up_to(self, most: f64) -> Self {
+        Self { most, ..self }
+    }
+
     /// The smallest and the largest value that can be meant whatever the record: a shape is positive, an amount has
     /// its sign, and one that is a pure number is no larger than plausible.
     pub fn bounds(&self) -> (f64, f64) {
