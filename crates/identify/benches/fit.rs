@@ -12,6 +12,7 @@ use identify::{
         problem::{Problem, Weights},
         search::{End, Found, TO_THE_END, search},
         window::Window,
+        work::Work,
     },
 };
 use rand::SeedableRng;
@@ -144,6 +145,7 @@ fn fitted(rig: &Rig, data: &Data) -> (Found, Vec<f64>) {
         course: Arc::default(),
         slopes: 0.0,
         bends: false,
+        work: Work::default(),
     };
     let found = newton::settle(&problem, search(&problem, (&x, None), None, &TO_THE_END), None);
     let values = (0..found.x.len()).map(|i| problem.value(i, &found.x)).collect();

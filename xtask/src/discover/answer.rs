@@ -21,6 +21,7 @@ pub(super) fn as_json(told: &Told) -> Value {
         "format": FORMAT,
         "verdict": found.verdict.name(),
         "says": verdict(told),
+        "complete": found.complete,
         "check": {
             "problems": told.check.problems,
             "notes": told.check.notes,

@@ -216,7 +216,7 @@ fn verdict(told: &Told) -> String {
         }
     };
     let names = found.effects.iter().map(name).collect::<Vec<_>>().join("; and ");
-    match found.verdict {
+    let says = match found.verdict {
         Verdict::NothingMissing => "nothing is missing at this noise".to_owned(),
         Verdict::Parameter => {
             let wrong = found.parameters.iter().filter(|p| p.moved);
@@ -230,5 +230,6 @@ fn verdict(told: &Told) -> String {
         Verdict::Effect => format!("the model lacks {names}"),
         Verdict::Partial => format!("the model lacks {names}; and something more is missing"),
         Verdict::NotInLibrary => "the model lacks something that is not in the library".to_owned(),
-    }
+    };
+    if found.complete { says } else { says + "; the search took too long and was ended" }
 }

@@ -27,6 +27,7 @@ use identify::{
         starts,
         whitening::Whitening,
         window::Window,
+        work::Work,
     },
 };
 use loose::{DRIVES, LOOSE, prestress};
@@ -55,6 +56,8 @@ pub(crate) struct Board<'a> {
     pub(crate) loose: Vec<(String, f64)>,
     /// What the steps may be wrong by, of the spans [1].
     pub(crate) tolerance: f64,
+    /// What has been simulated for it.
+    pub(crate) work: Work,
 }
 
 /// A model, fitted on the training blocks.
@@ -164,6 +167,7 @@ impl<'a> Board<'a> {
             whitening: None,
             loose,
             tolerance: steps::LONGEST,
+            work: Work::default(),
         })
     }
 
@@ -227,6 +231,7 @@ impl<'a> Board<'a> {
             slopes: SLOPES,
             bends: true,
             priors,
+            work: self.work.clone(),
             ..base
         };
         let taken = self.windows.iter().enumerate().filter(|(w, _)| take(self.block(*w)));

@@ -9,8 +9,7 @@ use crate::{
     board::{Fitted, strays},
     decide::{Judged, shrink},
     gram::{Gram, spreads},
-    screen,
-    verdict::{Discovery, Found, Gap, Limit, Moved, Value, Verdict, name},
+    verdict::{Discovery, Found, Gap, Moved, Value, Verdict, limits},
     wrong::{Minimum, besides, wrong},
 };
 use identify::{
@@ -108,6 +107,7 @@ impl Walk<'_> {
             detectability: limits(start, rig),
             chi_squared: [first, nominal, self.judged(&self.best.blocks).level()],
             hold: None,
+            complete: true,
             rig: self.best.rig,
         })
     }
@@ -245,17 +245,6 @@ impl Walk<'_> {
     fn judging(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.board.trains.len()).filter(|k| !self.board.trains[*k])
     }
-}
-
-/// How much of each effect the record would have shown.
-fn limits(start: &Gram, rig: &Rig) -> Vec<Limit> {
-    let one = |v: screen::Visible| Limit {
-        name: name(v.kind),
-        amount: v.amount,
-        unit: v.kind.about().unit(v.kind.about().keys[0].name, rig),
-        hidden_by: v.hidden_by,
-    };
-    screen::detectability(start).into_iter().map(one).collect()
 }
 
 /// Whether a model is surely worse on the judging blocks than another, by however small a share: among many channels

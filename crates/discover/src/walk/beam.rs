@@ -48,6 +48,9 @@ impl Walk<'_> {
         let taken = effects.first().map(|first| first.name);
         let (ranked, mut better) = (self.ranking.len(), false);
         for first in firsts.iter().filter(|c| Some(name(c.kind)) != taken) {
+            if self.tired() {
+                break;
+            }
             let alone = self.judged(&first.fitted.blocks).level();
             // Beside what explains all only what is a good part of it alone.
             let least = if explained { MOST } else { HALF_UNDONE };

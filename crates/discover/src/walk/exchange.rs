@@ -33,7 +33,7 @@ impl Walk<'_> {
     ) -> Result<(), FitError> {
         for place in 0..effects.len() {
             let plausible = self.plausible(effects[place].name, context);
-            if place + 1 == effects.len() && plausible {
+            if self.tired() || place + 1 == effects.len() && plausible {
                 break;
             }
             let name = effects[place].name;

@@ -61,23 +61,27 @@ fn simplest(
     mut walked: impl FnMut(Hold, &[Hold]) -> Result<End, FitError>,
 ) -> Result<(Hold, Discovery), FitError> {
     let first = walked(told, &others)?;
+    // What took as long as was asked for is not begun anew.
+    let mut tired = !first.found.complete;
     let mut left: Vec<Hold> = first.turned.then_some(told).into_iter().collect();
     let (mut hold, mut found, mut asked) = (told, first.found, first.other);
-    while let Some(other) = asked {
+    while let Some(other) = asked.filter(|_| !tired) {
         others.retain(|own| *own != other);
         let next = walked(other, &others)?;
         left.extend(next.turned.then_some(other));
         asked = next.other;
+        tired |= !next.found.complete;
         if simpler(&next.found, &found, free) {
             (hold, found) = (other, next.found);
         }
     }
     // What is turned from far from the truth may be right all the same.
     for other in left {
-        if !matches!(found.verdict, Verdict::Partial | Verdict::NotInLibrary) {
+        if tired || !matches!(found.verdict, Verdict::Partial | Verdict::NotInLibrary) {
             break;
         }
         let whole = walked(other, &[])?.found;
+        tired |= !whole.complete;
         if simpler(&whole, &found, free) {
             (hold, found) = (other, whole);
         }
@@ -213,7 +217,9 @@ fn simpler(one: &Discovery, other: &Discovery, free: &[String]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Candidate, Data, Discovery, End, Hold, Kind, Moved, Rig, simpler, simplest};
+    use super::{
+        Candidate, Data, Discovery, End, Hold, Kind, Moved, Options, Rig, simpler, simplest, walked,
+    };
     use crate::{
         verdict::{Value, Verdict},
         walk::made,
@@ -226,6 +232,28 @@ mod tests {
         let bias = made::with(&rig, identify::effects::Kind::CurrentBias, &[made::BIAS]);
         rig.effects = vec![bias.effects[0].clone(); effects];
         made::answer(&rig, Verdict::Effect, left)
+    }
+
+    #[test]
+    fn a_search_that_takes_too_long_is_ended_with_what_it_has() {
+        let (data, rig) = (made::data(), made::rig(2.0));
+        let found = |simulations: u64| {
+            let options = Options { simulations, ..Options::default() };
+            walked((&rig, Vec::new()), &data, &[], &options).unwrap().found
+        };
+        let (all, none) = (found(Options::default().simulations), found(0));
+        assert!(all.complete && all.verdict == Verdict::Effect);
+        assert!(!none.complete && none.effects.is_empty());
+        assert_ne!(none.verdict, Verdict::NothingMissing);
+        // Nor is it begun anew with the input another way.
+        let mut runs = 0;
+        let walk = |_, _: &[Hold]| {
+            runs += 1;
+            let found = Discovery { complete: false, ..answer(0, 3.3) };
+            Ok(End { found, other: Some(Hold::Linear), turned: false })
+        };
+        simplest((Hold::ZeroOrder, vec![Hold::Linear]), &[], walk).unwrap();
+        assert_eq!(runs, 1);
     }
 
     /// Whether a model turns, and whether it may be simpler otherwise.

@@ -68,6 +68,7 @@ pub(super) fn walk<'a>(rig: &Rig, data: &'a Data, loose: &[(String, f64)]) -> Wa
         others: &[],
         turned: None,
         reached: 1.0,
+        simulations: u64::MAX,
     }
 }
 
@@ -108,6 +109,7 @@ pub(super) fn answer(rig: &Rig, verdict: Verdict, left: f64) -> Discovery {
         detectability: Vec::new(),
         chi_squared: [9.0, 9.0, left],
         hold: None,
+        complete: true,
         rig: rig.clone(),
     }
 }

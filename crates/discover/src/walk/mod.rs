@@ -105,6 +105,8 @@ struct Walk<'a> {
     turned: Option<Hold>,
     /// What a model of the record is known to leave, or the floor [1].
     reached: f64,
+    /// How often the record may be simulated before no more is looked for.
+    simulations: u64,
 }
 
 /// How a walk ends.
@@ -129,7 +131,7 @@ fn walked(
     let rig = &rig;
     let channels = refit.blocks.first().map_or(1, Vec::len) as f64;
     let counts: Vec<f64> = board.samples().into_iter().map(|n| n * channels).collect();
-    let short = Board::of(rig, data, SHORT, loose)?;
+    let short = Board { work: board.work.clone(), ..Board::of(rig, data, SHORT, loose)? };
     let mut walk = Walk {
         board,
         short,
@@ -146,6 +148,7 @@ fn walked(
         others,
         turned: None,
         reached: 1.0,
+        simulations: options.simulations,
     };
     walk.begun_anew()?;
     walk.near_the_floor(CLOSE_TO)?;
@@ -157,17 +160,30 @@ fn walked(
     let start = Gram::of(&walk.board, &refit, (&context, true))?;
     let mut effects = walk.rounds(&context, options, &start)?;
     walk.looked_over(&mut effects, &context, options)?;
+    let complete = !walk.tired();
     let refit = walk.polish(&refit, options.seed)?;
     walk.drop_unsure((rig, &refit), &mut effects, &context)?;
     let refit = walk.wrong_given(rig, &mut effects)?.unwrap_or(refit);
     let before = walk.board.judged(given, None)?;
-    let other = if walk.turned.is_some() { walk.turned } else { walk.may_be_other()? };
+    let other = if walk.turned.is_some() {
+        walk.turned
+    } else if complete {
+        walk.may_be_other()?
+    } else {
+        None
+    };
     let turned = walk.turned.is_some();
     let found = walk.answer((rig, &before, &refit), (effects, &start), &context)?;
+    let found = Discovery { complete, ..found };
     Ok(End { found, other, turned })
 }
 
 impl Walk<'_> {
+    /// Whether the record was simulated as often as was asked for: then what was found is answered.
+    fn tired(&self) -> bool {
+        self.board.work.steps() / self.board.data.time.len() as u64 > self.simulations
+    }
+
     fn judged(&self, blocks: &[Vec<f64>]) -> Judged {
         Judged::of(blocks, &self.counts, &self.board.trains)
     }
@@ -205,7 +221,7 @@ impl Walk<'_> {
         // Its two plain parts are no effects beside others then.
         let bare = self.bare();
         let most = options.most + if bare { PLAIN } else { 0 };
-        while effects.len() < most {
+        while effects.len() < most && !self.tired() {
             let round = effects.len();
             let first = Some(start).filter(|_| round == 0);
             let before = (self.board.clone(), self.best.clone());
@@ -247,7 +263,7 @@ impl Walk<'_> {
             return Ok(());
         }
         let others = std::mem::take(&mut self.others);
-        loop {
+        while !self.tired() {
             self.drop_each(effects, context)?;
             self.exchange_each(effects, context, options)?;
             if !self.widened(effects, context, options)? {
@@ -281,7 +297,9 @@ impl Walk<'_> {
         // The race of what does not begin smoothly takes as long as all else: what comes down to the floor needs none.
         let level = now.level();
         let begins = self.may_begin(level, round);
-        let joints = if begins && !all.iter().any(|c| self.down(&now, c, context)) {
+        let joints = if self.tired() {
+            Vec::new()
+        } else if begins && !all.iter().any(|c| self.down(&now, c, context)) {
             self.begun(context)
         } else if self.joins && (level <= ABOVE || self.explained(level)) {
             self.nearly_rigid(context)
@@ -294,8 +312,10 @@ impl Walk<'_> {
             all.extend(self.finely(beside)?);
             all = self.told_apart(&now, all, context)?;
         }
-        let others = self.other_forms(&all, context);
-        all.extend(self.finely(others)?);
+        if !self.tired() {
+            let others = self.other_forms(&all, context);
+            all.extend(self.finely(others)?);
+        }
         let simpler = self.simpler(&now, &all, context);
         all.extend(self.finely(simpler)?);
         let rated = self.rated(all, context);

@@ -33,6 +33,7 @@ mod way;
 mod weights;
 pub mod whitening;
 pub mod window;
+pub mod work;
 
 pub use data::{Data, Seen};
 pub use displacement::{Course, corners};
@@ -326,6 +327,7 @@ fn unfree<'a>(rig: &'a Rig, data: &'a Data) -> Result<Problem<'a>, FitError> {
         course: Arc::new(course),
         slopes: 0.0,
         bends: false,
+        work: work::Work::default(),
     })
 }
 

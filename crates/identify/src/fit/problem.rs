@@ -7,6 +7,7 @@ use super::{
     imposed::forces,
     weights::bend,
     window::{ONE_MASS, START, Window},
+    work::Work,
 };
 pub use super::{
     piece::{Lead, Piece, Slopes},
@@ -57,6 +58,8 @@ pub struct Problem<'a> {
     pub slopes: f64,
     /// Whether a velocity's time counts only where it bends: in windows that begin anew no break-away is off for long.
     pub bends: bool,
+    /// What has been simulated for it and its clones.
+    pub work: Work,
 }
 
 /// How well the time of a break-away is known, in sampling times; noise does not bend by more than so many times itself: its
@@ -167,6 +170,7 @@ impl Problem<'_> {
         let range = window.first..window.end;
         if let Some(force) = &self.data.force {
             let mut motion = Motion::default();
+            self.work.add(window.len());
             forces(
                 &model,
                 (&self.data.time[range.clone()], &self.data.input[range], &self.course(window)),
@@ -184,6 +188,7 @@ impl Problem<'_> {
         let spans = self.spans(window, self.tolerance);
         let motion = march(&model, &self.drive(window), &self.data.time[range], &state, &spans);
         let motion = motion.unwrap_or_default();
+        self.work.add(motion.tape.steps().max(window.len()));
         for i in 0..window.len() {
             self.sample(window.first + i, &motion, i, &mut residuals);
         }

@@ -162,6 +162,7 @@ impl Problem<'_> {
         let model = self.model_with::<P>(x, first);
         let range = window.first..window.end;
         let many = jacobian.ncols();
+        self.work.add_with(way.tape.steps().max(window.len()), many);
         let mut write = |row: usize, value: &Dual<P>, weight: f64| {
             for place in 0..many {
                 jacobian[(row, place)] = value.eps[place] / weight;

@@ -135,6 +135,7 @@ mod tests {
         };
         let answer = Discovery {
             hold: None,
+            complete: true,
             verdict: discover::Verdict::Effect,
             parameters: vec![],
             effects: vec![found],
