@@ -25,8 +25,10 @@ const DOWN: Patience = Patience { misfit: 1.0, share: 1e-6, simulations: 60 };
 const PART: f64 = 0.2;
 
 /// And where several are named that do not explain all, if a force over the displacement leaves hardly more: they are its
-/// series.
+/// series. Where they nearly do, if it leaves less, and they leave more than right names do.
 const SERIES: f64 = 1.2;
+const NEARER: f64 = 0.95;
+const LEFT: f64 = 1.05;
 
 impl Walk<'_> {
     /// The maps of what a model leaves, the one that lowers the sum of squares most first; and by how much each lowers that
@@ -119,22 +121,22 @@ impl Walk<'_> {
     }
 
     /// The map of one force over the displacement that does as well as several named effects, so `many`, which leave
-    /// something: friction that is stronger on the way out than on the way home is a step of a force at the middle, and a
+    /// something, or better where they explain nearly `all`: friction that is stronger on the way out than on the way home is a step of a force at the middle, and a
     /// wave with overtones and a slip make up for that in part. Over the velocity, and the drive that goes with it, the
     /// library has many names, so that several of them are no series.
     pub(super) fn series(
         &self,
         refit: &Fitted,
-        many: usize,
+        (many, all): (usize, bool),
         context: &Context,
     ) -> Result<Option<MapOf>, FitError> {
-        if many < 2 {
+        let [nominal, last] = [refit, &self.best].map(|f| self.judged(&f.blocks).level());
+        if many < 2 || all && last < LEFT {
             return Ok(None);
         }
-        let [nominal, last] = [refit, &self.best].map(|f| self.judged(&f.blocks).level());
-        let enough = shrink(nominal, SERIES * last);
-        let all = self.maps(refit, context, Of::Force)?;
-        Ok(all.into_iter().find(|map| map.axis == "displacement" && map.shrink > enough))
+        let enough = shrink(nominal, if all { NEARER } else { SERIES } * last);
+        let maps = self.maps(refit, context, Of::Force)?;
+        Ok(maps.into_iter().find(|map| map.axis == "displacement" && map.shrink > enough))
     }
 }
 
@@ -221,7 +223,7 @@ mod tests {
             steps.input[i] += made::BIAS + 0.5 * (x / 0.2).tanh();
             drags.input[i] += made::BIAS + 0.1 * v * v * v;
         }
-        let axis = |data: &identify::fit::Data, named: f64, many: usize| {
+        let axis = |data: &identify::fit::Data, named: f64, how: (usize, bool)| {
             let mut walk = made::walk(&made::rig(2.0), data, &[]);
             let context = made::context(&walk);
             let refit = walk.best.clone();
@@ -229,13 +231,19 @@ mod tests {
             let with = made::with(&with, Kind::QuadraticDrag, &[named]);
             walk.best = walk.board.judged(&Rig { free: Vec::new(), ..with }, None).unwrap();
             let levels = [&refit, &walk.best].map(|f| walk.judged(&f.blocks).level());
-            (walk.series(&refit, many, &context).unwrap().map(|map| map.axis), levels)
+            (walk.series(&refit, how, &context).unwrap().map(|map| map.axis), levels)
         };
         // A spring and a drag make up for a part of the step.
-        let (found, [alone, named]) = axis(&steps, 0.1, 2);
+        let (found, [alone, named]) = axis(&steps, 0.1, (2, false));
         assert!(found == Some("displacement") && named < alone, "{found:?}: {alone} to {named}");
-        assert_eq!(axis(&steps, 0.1, 1).0, None, "a name is a name");
-        let (found, levels) = axis(&drags, 0.1, 2);
+        assert_eq!(axis(&steps, 0.1, (1, false)).0, None, "a name is a name");
+        // It is nearer than these; where they leave no more than noise nothing is.
+        assert_eq!(axis(&steps, 0.1, (2, true)).0, Some("displacement"));
+        let mut noise = made::data();
+        noise.input.iter_mut().for_each(|u| *u += made::BIAS);
+        let (found, [alone, named]) = axis(&noise, 1e-4, (2, true));
+        assert!(found.is_none() && named < super::LEFT, "{found:?}: {alone} to {named}");
+        let (found, levels) = axis(&drags, 0.1, (2, false));
         assert!(
             found.is_none() && levels[1] < levels[0],
             "over the velocity there are many: {found:?} {levels:?}"

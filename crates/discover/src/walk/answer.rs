@@ -85,8 +85,11 @@ impl Walk<'_> {
         let mut verdict = verdict(&effects, &parameters, levels, (struck, hangs));
         let beyond = match verdict {
             Verdict::NothingMissing => self.faint((rig, &mut parameters), context)?,
-            Verdict::Effect => self.resembled(refit, context)?,
-            Verdict::Partial => self.series(refit, effects.len(), context)?,
+            Verdict::Effect => match self.series(refit, (effects.len(), true), context)? {
+                None => self.resembled(refit, context)?,
+                map => map,
+            },
+            Verdict::Partial => self.series(refit, (effects.len(), false), context)?,
             _ => None,
         };
         if beyond.is_some() {

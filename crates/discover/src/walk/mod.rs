@@ -116,6 +116,8 @@ struct End {
     other: Option<Hold>,
     /// Whether it turned to that before it came to an end of its own.
     turned: bool,
+    /// How often it simulated the record.
+    simulations: u64,
 }
 
 /// Looks for what the model `rig` lacks, and asks whether the record is nearer with its input as in one of the `others`.
@@ -173,15 +175,21 @@ fn walked(
         None
     };
     let turned = walk.turned.is_some();
+    let simulations = walk.simulated();
     let found = walk.answer((rig, &before, &refit), (effects, &start), &context)?;
     let found = Discovery { complete, ..found };
-    Ok(End { found, other, turned })
+    Ok(End { found, other, turned, simulations })
 }
 
 impl Walk<'_> {
     /// Whether the record was simulated as often as was asked for: then what was found is answered.
     fn tired(&self) -> bool {
-        self.board.work.steps() / self.board.data.time.len() as u64 > self.simulations
+        self.simulated() > self.simulations
+    }
+
+    /// How often the record was simulated.
+    fn simulated(&self) -> u64 {
+        self.board.work.steps() / self.board.data.time.len() as u64
     }
 
     fn judged(&self, blocks: &[Vec<f64>]) -> Judged {
