@@ -284,21 +284,22 @@ mod tests {
         halves: 0,
     };
 
+    /// Whether an effect with these keys is plausible in place of the rig's.
+    fn plausibly(kind: Kind, keys: &str) -> bool {
+        let effect = format!("name = \"{}\"\n{keys}", kind.about().name);
+        let rig = Rig::parse(&RIG.replace("name = \"position_friction\"\n", &effect)).unwrap();
+        plausible(&rig, kind, &CONTEXT, &[&rig])
+    }
+
     /// Whether friction that grows by s sin kq + c cos kq is plausible on a record between -0.25 and 0.25 m.
     fn fits([s, c, k]: [f64; 3]) -> bool {
-        let rig = format!("{RIG}sine = {s:?}\ncosine = {c:?}\nwavenumber = {k:?}\n");
-        let rig = Rig::parse(&rig).unwrap();
-        plausible(&rig, Kind::PositionFriction, &CONTEXT, &[&rig])
+        let keys = format!("sine = {s:?}\ncosine = {c:?}\nwavenumber = {k:?}\n");
+        plausibly(Kind::PositionFriction, &keys)
     }
 
     #[test]
     fn friction_that_falls_off_within_presliding_is_no_stribeck_effect() {
-        let of = |v_s: f64| {
-            let effect = format!("name = \"stribeck\"\ndrop = 0.3\nv_s = {v_s:?}\n");
-            let rig = RIG.replace("name = \"position_friction\"\n", &effect);
-            let rig = Rig::parse(&rig).unwrap();
-            plausible(&rig, Kind::Stribeck, &CONTEXT, &[&rig])
-        };
+        let of = |v_s: f64| plausibly(Kind::Stribeck, &format!("drop = 0.3\nv_s = {v_s:?}\n"));
         // Of 1 m/s.
         assert!(of(0.01) && of(1e-3) && !of(1e-4));
     }
@@ -306,10 +307,7 @@ mod tests {
     #[test]
     fn a_contact_that_still_gives_way_where_it_has_slid_for_long_is_no_presliding() {
         let of = |gamma: f64| {
-            let effect = format!("name = \"presliding\"\nsigma = 100.0\ngamma = {gamma:?}\n");
-            let rig = RIG.replace("name = \"position_friction\"\n", &effect);
-            let rig = Rig::parse(&rig).unwrap();
-            plausible(&rig, Kind::Presliding, &CONTEXT, &[&rig])
+            plausibly(Kind::Presliding, &format!("sigma = 100.0\ngamma = {gamma:?}\n"))
         };
         assert!(of(0.25) && of(2.0) && !of(4.64));
     }
@@ -317,12 +315,10 @@ mod tests {
     #[test]
     fn what_weighs_nothing_is_no_load_and_what_gives_way_as_far_as_it_goes_no_gear() {
         let of = |compliance: f64, ratio: f64| {
-            let effect = format!(
-                "name = \"compliance\"\ncompliance = {compliance:?}\nratio = {ratio:?}\ndamping = 0.5\nrubs = 1e-3\n"
+            let keys = format!(
+                "compliance = {compliance:?}\nratio = {ratio:?}\ndamping = 0.5\nrubs = 1e-3\n"
             );
-            let rig = RIG.replace("name = \"position_friction\"\n", &effect);
-            let rig = Rig::parse(&rig).unwrap();
-            plausible(&rig, Kind::Compliance, &CONTEXT, &[&rig])
+            plausibly(Kind::Compliance, &keys)
         };
         assert!(of(0.01, 0.02) && !of(0.01, 0.004));
         // By 1 N on a way of 0.5 m.

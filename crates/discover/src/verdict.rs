@@ -27,6 +27,11 @@ pub struct Options {
 }
 
 impl Options {
+    /// The same, but for so many simulations that were done already.
+    pub(crate) fn after(&self, simulated: u64) -> Self {
+        Self { simulations: self.simulations.saturating_sub(simulated), ..self.clone() }
+    }
+
     /// Tells how far the search has come, where somebody listens.
     pub(crate) fn tell(&self, what: impl FnOnce() -> String) {
         if let Some(told) = self.told {

@@ -121,9 +121,9 @@ impl Walk<'_> {
     }
 
     /// The map of one force over the displacement that does as well as several named effects, so `many`, which leave
-    /// something, or better where they explain nearly `all`: friction that is stronger on the way out than on the way home is a step of a force at the middle, and a
-    /// wave with overtones and a slip make up for that in part. Over the velocity, and the drive that goes with it, the
-    /// library has many names, so that several of them are no series.
+    /// something, or better where they explain nearly `all`: friction that is stronger on the way out than on the way home
+    /// is a step of a force at the middle, and a wave with overtones and a slip make up for that in part. Over the velocity,
+    /// and the drive that goes with it, the library has many names, so that several of them are no series.
     pub(super) fn series(
         &self,
         refit: &Fitted,

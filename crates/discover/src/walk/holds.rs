@@ -35,24 +35,25 @@ const RIVAL: f64 = 1.5;
 /// last one.
 pub fn discover(rig: &Rig, data: &Data, options: &Options) -> Result<Discovery, FitError> {
     let Some(told) = hold::told(rig, data)? else {
-        let first = walked((rig, board::loose(rig)), data, &[], options)?.found;
-        return fewest(rig, data, options, first);
+        let first = walked((rig, board::loose(rig)), data, &[], options)?;
+        return fewest(rig, data, &options.after(first.simulated), first.found);
     };
     let as_in = |hold: Hold| Data { hold, ..data.clone() };
-    let (mut again, mut left) = (false, options.simulations);
+    let (mut again, mut simulated) = (false, 0);
     let walk = |hold: Hold, others: &[Hold]| {
         if std::mem::replace(&mut again, true) {
             options.tell(|| format!("once more, with hold = \"{}\" for the input", hold.name()));
         }
         let others: Vec<Data> = others.iter().map(|other| as_in(*other)).collect();
         let (rig, data) = (rig.clone().saying(Some(hold)), as_in(hold));
-        let options = Options { simulations: left, ..options.clone() };
+        let options = options.after(simulated);
         let end = walked((&rig, board::loose(&rig)), &data, &others, &options)?;
-        left = left.saturating_sub(end.simulations);
+        simulated += end.simulated;
         Ok(end)
     };
     let (hold, found) = simplest((told.hold, told.others.to_vec()), &rig.free, walk)?;
-    let found = fewest(&rig.clone().saying(Some(hold)), &as_in(hold), options, found)?;
+    let found =
+        fewest(&rig.clone().saying(Some(hold)), &as_in(hold), &options.after(simulated), found)?;
     Ok(Discovery { hold: Some(hold), ..found })
 }
 
@@ -253,7 +254,7 @@ mod tests {
         let walk = |_, _: &[Hold]| {
             runs += 1;
             let found = Discovery { complete: false, ..answer(0, 3.3) };
-            Ok(End { found, other: Some(Hold::Linear), turned: false, simulations: 1 })
+            Ok(End { found, other: Some(Hold::Linear), turned: false, simulated: 1 })
         };
         simplest((Hold::ZeroOrder, vec![Hold::Linear]), &[], walk).unwrap();
         assert_eq!(runs, 1);
@@ -343,12 +344,7 @@ mod tests {
                     (Hold::ZeroOrder, true) => (answer(1, 1.0), false),
                     _ => (Discovery { verdict, ..answer(1, 3.3) }, false),
                 };
-                Ok(End {
-                    found,
-                    other: turns.then_some(Hold::Linear),
-                    turned: turns,
-                    simulations: 1,
-                })
+                Ok(End { found, other: turns.then_some(Hold::Linear), turned: turns, simulated: 1 })
             };
             let ways = (Hold::ZeroOrder, vec![Hold::Linear, Hold::Smooth]);
             let (hold, found) = simplest(ways, &[], walked).unwrap();

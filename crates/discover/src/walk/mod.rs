@@ -117,7 +117,7 @@ struct End {
     /// Whether it turned to that before it came to an end of its own.
     turned: bool,
     /// How often it simulated the record.
-    simulations: u64,
+    simulated: u64,
 }
 
 /// Looks for what the model `rig` lacks, and asks whether the record is nearer with its input as in one of the `others`.
@@ -175,10 +175,10 @@ fn walked(
         None
     };
     let turned = walk.turned.is_some();
-    let simulations = walk.simulated();
+    let simulated = walk.simulated();
     let found = walk.answer((rig, &before, &refit), (effects, &start), &context)?;
     let found = Discovery { complete, ..found };
-    Ok(End { found, other, turned, simulations })
+    Ok(End { found, other, turned, simulated })
 }
 
 impl Walk<'_> {
@@ -271,7 +271,7 @@ impl Walk<'_> {
             return Ok(());
         }
         let others = std::mem::take(&mut self.others);
-        while !self.tired() {
+        loop {
             self.drop_each(effects, context)?;
             self.exchange_each(effects, context, options)?;
             if !self.widened(effects, context, options)? {

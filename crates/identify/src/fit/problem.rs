@@ -16,7 +16,7 @@ pub use super::{
 };
 use crate::{
     Rig,
-    march::{Drive, Dual, Feedback, Model, Motion, Real, Tolerance, march},
+    march::{Drive, Dual, Feedback, Model, Motion, Real, Start, Tolerance, march},
 };
 use std::{borrow::Cow, sync::Arc};
 
@@ -185,10 +185,7 @@ impl Problem<'_> {
             return Piece { start, motion, residuals };
         }
         let state = self.state(&model, window, start);
-        let spans = self.spans(window, self.tolerance);
-        let motion = march(&model, &self.drive(window), &self.data.time[range], &state, &spans);
-        let motion = motion.unwrap_or_default();
-        self.work.add(motion.tape.steps().max(window.len()));
+        let motion = self.marched(&model, window, &state, self.tolerance).unwrap_or_default();
         for i in 0..window.len() {
             self.sample(window.first + i, &motion, i, &mut residuals);
         }
@@ -197,6 +194,22 @@ impl Problem<'_> {
             residuals.push((start[i] - window.start[i]) / spread);
         }
         Piece { start, motion, residuals }
+    }
+
+    /// The motion of a window from the state `from`, in steps of this tolerance; none if there is no finite one.
+    pub(super) fn marched(
+        &self,
+        model: &Model<f64>,
+        window: &Window,
+        from: &Start<f64>,
+        tolerance: f64,
+    ) -> Option<Motion> {
+        let spans = self.spans(window, tolerance);
+        let time = &self.data.time[window.first..window.end];
+        let motion = march(model, &self.drive(window), time, from, &spans).ok();
+        let steps = motion.as_ref().map_or(0, |motion| motion.tape.steps());
+        self.work.add(steps.max(window.len()));
+        motion
     }
 
     /// Makes a window's residuals independent of each other, and multiplies them by their shares.

@@ -6,7 +6,7 @@ use super::{
     problem::Problem,
     window::{START, Window},
 };
-use crate::march::{Dual, Tape, march, replay};
+use crate::march::{Dual, Tape, replay};
 use nalgebra::{DMatrix, DMatrixViewMut};
 use rayon::prelude::*;
 use std::{borrow::Cow, ops::Range};
@@ -96,9 +96,7 @@ impl Problem<'_> {
         }
         let model = self.model(x);
         let state = self.state(&model, window, start);
-        let spans = self.spans(window, self.slopes);
-        let time = &self.data.time[window.first..window.end];
-        let longer = march(&model, &self.drive(window), time, &state, &spans);
+        let longer = self.marched(&model, window, &state, self.slopes);
         longer.map_or(own, |motion| Way { start, tape: Cow::Owned(motion.tape) })
     }
 
