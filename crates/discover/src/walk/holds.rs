@@ -254,7 +254,8 @@ mod tests {
         let walk = |_, _: &[Hold]| {
             runs += 1;
             let found = Discovery { complete: false, ..answer(0, 3.3) };
-            Ok(End { found, other: Some(Hold::Linear), turned: false, simulated: 1 })
+            let other = (runs == 1).then_some(Hold::Linear);
+            Ok(End { found, other, turned: false, simulated: 1 })
         };
         simplest((Hold::ZeroOrder, vec![Hold::Linear]), &[], walk).unwrap();
         assert_eq!(runs, 1);
