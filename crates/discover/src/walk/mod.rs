@@ -368,3 +368,24 @@ impl Walk<'_> {
         self.begun_alike(all)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::made;
+
+    #[test]
+    fn every_motion_counts_and_every_derivative() {
+        let data = made::data();
+        let walk = made::walk(&made::rig(2.0), &data, &[]);
+        let problem = walk.board.problem(&walk.best.rig, |_| true).unwrap();
+        let x = identify::fit::starts::nominal(&problem);
+        let before = walk.board.work.steps();
+        let all = problem.windows.iter().map(|w| problem.piece(&x, w, w.start)).collect::<Vec<_>>();
+        let steps: usize = all.iter().map(|piece| piece.motion.tape.steps()).sum();
+        assert!(steps >= data.time.len() - all.len());
+        let counted = walk.board.work.steps() - before;
+        assert!((steps as u64..=steps as u64 + all.len() as u64).contains(&counted), "{counted}");
+        problem.all_slopes(&x, &all);
+        assert!(walk.board.work.steps() > before + counted, "derivatives take their time");
+    }
+}
